@@ -1,0 +1,55 @@
+/// fields.pvd and fields/*.vtu: the frames of a run as ParaView opens them; history.csv beside them.
+#pragma once
+
+#include "core/frame.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace tessera::io {
+
+/// Writes each frame as fields/fields_NNNN.vtu (vertices, float32, LZ4; TimeValue as field data) and renews fields.pvd
+/// after each, both atomically, so that a run killed at any moment leaves a readable series.
+class FrameSeries {
+public:
+  /// Starts an empty series in `folder` (fields of an earlier run there are removed).
+  explicit FrameSeries(std::filesystem::path folder);
+  void write(const Frame& frame);
+
+private:
+  std::filesystem::path folder_;
+  std::vector<std::pair<double, std::string>> entries_;
+};
+
+/// One entry of a stored series.
+struct StoredFrame {
+  double time = 0; ///< s
+  std::filesystem::path file;
+};
+/// The frames fields.pvd lists, in order of time; InputError when there are none.
+std::vector<StoredFrame> read_series(const std::filesystem::path& folder);
+
+/// history.csv: a header of column names, then rows; flushed row by row.
+class HistoryFile {
+public:
+  explicit HistoryFile(const std::filesystem::path& file);
+  void columns(const std::vector<std::string>& names);
+  void row(const std::vector<double>& values);
+
+private:
+  std::filesystem::path file_;
+  std::ofstream out_;
+};
+
+/// A stored history: names, and one column of numbers each.
+struct History {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+  /// InputError naming the columns there are when `name` is not one of them.
+  const std::vector<double>& column(const std::string& name) const;
+};
+History read_history(const std::filesystem::path& file);
+
+} // namespace tessera::io
