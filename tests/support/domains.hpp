@@ -1,0 +1,17 @@
+/// Bodies of known shape as Domains, built without any CAD kernel.
+#pragma once
+
+#include "preprocess/geometry/domain.hpp"
+
+namespace tessera::test {
+
+/// Block between two corners, n cells a side, six tetrahedra a cell. Surfaces xmin, xmax, ymin, ymax, zmin,
+/// zmax (each a group too), 12 curves, 8 corners.
+preprocess::Domain box_domain(const Vec3& lower = Vec3::Zero(), const Vec3& upper = Vec3::Ones(), int n = 1);
+
+/// L-shaped block: ([0,2]^2 minus [1,2]^2) x [0,1], n cells per unit, times `scale`, then moved by `offset`.
+/// Volume 3 scale^3. Surfaces as the box's, with `notch_x` (x = 1) and `notch_y` (y = 1) meeting in the
+/// re-entrant curve x = y = 1: 8 surfaces, 18 curves, 12 corners.
+preprocess::Domain l_domain(int n = 1, double scale = 1, const Vec3& offset = Vec3::Zero());
+
+} // namespace tessera::test
