@@ -67,7 +67,6 @@ struct SceneSpec {
   std::optional<double> support;
   int neighbours = 30;
   double jst4 = 1.0 / 8;  ///< kappa4 of (3.85)
-  double jst2 = 0;        ///< kappa2 of (3.84)
   double cfl = 0.3;       ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s

@@ -1,0 +1,43 @@
+#include "solver/operators/support.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "solver/operators/gradient.hpp"
+
+#include <fmt/format.h>
+
+namespace tessera::solver {
+
+Neighbours uniform_support(std::span<const Vec3> X, double radius) {
+  return find_neighbours(X, std::vector<double>(X.size(), radius));
+}
+
+template <int D>
+Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours) {
+  require(static_cast<std::size_t>(neighbours) + 1 < X.size(),
+          fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()), "solver.neighbours",
+          "ask for fewer, or for more particles");
+  constexpr double ill_conditioned = 1e3;
+  // The kernel vanishes at its radius, so the k-th neighbour counts only when the radius reaches to the next one.
+  std::vector<double> support = distance_to_nearest(X, neighbours + 1);
+  for (int round = 0; round < 10; ++round) {
+    Neighbours found = find_neighbours(X, support);
+    std::vector<std::uint8_t> grow(X.size(), 0);
+    for_each(found.size(), [&](std::int64_t a) {
+      grow[a] = !(condition_number<D>(moment_matrix<D>(a, X, V, found)) < ill_conditioned);
+    });
+    bool any = false;
+    for (std::size_t a = 0; a < X.size(); ++a)
+      if (grow[a]) {
+        support[a] *= 1.1;
+        any = true;
+      }
+    if (!any) return found;
+  }
+  return find_neighbours(X, std::move(support)); // build_gradient names the particle that is still singular
+}
+
+template Neighbours adaptive_support<2>(std::span<const Vec3>, std::span<const double>, int);
+template Neighbours adaptive_support<3>(std::span<const Vec3>, std::span<const double>, int);
+
+} // namespace tessera::solver

@@ -1,0 +1,41 @@
+#include "solver/scene/expression.hpp"
+
+#include "core/error.hpp"
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <cmath>
+
+namespace tessera::solver {
+
+struct Expression::Parser {
+  double X = 0, Y = 0, Z = 0;
+  mu::Parser parser;
+};
+
+Expression::Expression(const std::string& formula) : parser_(std::make_shared<Parser>()), formula_(formula) {
+  try {
+    parser_->parser.DefineVar("X", &parser_->X);
+    parser_->parser.DefineVar("Y", &parser_->Y);
+    parser_->parser.DefineVar("Z", &parser_->Z);
+    parser_->parser.SetExpr(formula);
+    parser_->parser.Eval();
+  } catch (const mu::Parser::exception_type& error) {
+    throw InputError(fmt::format("the formula \"{}\" cannot be read at position {}", formula, error.GetPos() + 1), "",
+                     error.GetMsg());
+  }
+}
+
+double Expression::operator()(const Vec3& X) const {
+  parser_->X = X[0];
+  parser_->Y = X[1];
+  parser_->Z = X[2];
+  const double value = parser_->parser.Eval();
+  if (!std::isfinite(value))
+    throw InputError(fmt::format("the formula \"{}\" is {} at ({:g}, {:g}, {:g})", formula_, value, X[0], X[1], X[2]),
+                     "", "formulas must be finite at every particle they apply to");
+  return value;
+}
+
+} // namespace tessera::solver
