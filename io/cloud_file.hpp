@@ -8,9 +8,10 @@
 
 namespace tessera::io {
 
-/// Points with arrays volume, area (3), centroid (3), cad_dimension, id, one mask "set:NAME" a set and "area:NAME" (3)
-/// where the set has surface; field data dimension, spacing, seed, domain_volume, arrangement, subvolumes,
-/// format_version. Double precision, LZ4. Written atomically; RunError when the disk refuses.
+/// Points with arrays volume, area (3), centroid (3), cad_dimension, id, one mask "set:NAME" a set and
+/// "area:NAME" (3) where the set has surface; field data dimension, spacing, seed, domain_volume,
+/// arrangement, subvolumes, format_version. Double precision, LZ4. Written atomically; RunError when the disk
+/// refuses.
 void write_cloud(const ParticleCloud& cloud, const std::filesystem::path& file);
 
 /// InputError when the file is missing, truncated, not a cloud or of another format version.

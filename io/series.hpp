@@ -10,15 +10,15 @@
 
 namespace tessera::io {
 
-/// Writes each frame as fields/fields_NNNN.vtu (vertices, float32, LZ4; TimeValue as field data) and renews fields.pvd
-/// after each, both atomically, so that a run killed at any moment leaves a readable series.
+/// Writes each frame as fields/fields_NNNN.vtu (vertices, float32, LZ4; TimeValue as field data) and renews
+/// fields.pvd after each, both atomically, so that a run killed at any moment leaves a readable series.
 class FrameSeries {
-public:
+ public:
   /// Starts an empty series in `folder` (fields of an earlier run there are removed).
   explicit FrameSeries(std::filesystem::path folder);
   void write(const Frame& frame);
 
-private:
+ private:
   std::filesystem::path folder_;
   std::vector<std::pair<double, std::string>> entries_;
 };
@@ -33,12 +33,12 @@ std::vector<StoredFrame> read_series(const std::filesystem::path& folder);
 
 /// history.csv: a header of column names, then rows; flushed row by row.
 class HistoryFile {
-public:
+ public:
   explicit HistoryFile(const std::filesystem::path& file);
   void columns(const std::vector<std::string>& names);
   void row(const std::vector<double>& values);
 
-private:
+ private:
   std::filesystem::path file_;
   std::ofstream out_;
 };
