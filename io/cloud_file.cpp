@@ -25,6 +25,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstring>
 #include <limits>
 #include <new>
 
@@ -56,7 +57,8 @@ std::string decoded(std::string_view name) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     unsigned byte = 0;
     const auto hex = name.substr(i, 3);
-    if (hex.size() == 3 && hex[0] == '%' && std::from_chars(&hex[1], &hex[1] + 2, byte, 16).ec == std::errc()) {
+    if (hex.size() == 3 && hex[0] == '%' &&
+        std::from_chars(&hex[1], &hex[1] + 2, byte, 16).ec == std::errc()) {
       out += static_cast<char>(byte);
       i += 2;
     } else {
@@ -115,10 +117,13 @@ class Source {
   }
   double number(const std::string& name) const { return field(name).GetTuple1(0); }
   std::uint64_t seed() const {
-    // Through double a seed above 2^53 would change.
-    auto* exact = vtkTypeUInt64Array::SafeDownCast(&field("seed"));
-    require(exact != nullptr, "the field 'seed' is not a 64-bit integer", file_, prepare_again);
-    return exact->GetValue(0);
+    // Through double a seed above 2^53 would change, and VTK reads 64 bits as one of several array types.
+    vtkDataArray& array = field("seed");
+    require(array.GetDataTypeSize() == sizeof(std::uint64_t) && array.GetDataType() != VTK_DOUBLE,
+            "the field 'seed' is not a 64-bit integer", file_, prepare_again);
+    std::uint64_t value = 0;
+    std::memcpy(&value, array.GetVoidPointer(0), sizeof value);
+    return value;
   }
   std::string word(const std::string& name) const {
     auto* found = vtkStringArray::SafeDownCast(data_->GetFieldData()->GetAbstractArray(name.c_str()));

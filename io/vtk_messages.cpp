@@ -17,7 +17,7 @@ class Collector : public vtkOutputWindow {
   static Collector* New();
   vtkTypeMacro(Collector, vtkOutputWindow)
 
-  void DisplayText(const char* text) override {
+      void DisplayText(const char* text) override {
     const std::lock_guard lock(mutex_);
     text_ += text;
   }
