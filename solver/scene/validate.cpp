@@ -1,0 +1,85 @@
+#include "core/error.hpp"
+#include "solver/scene/probe_values.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tessera::solver {
+namespace {
+
+void one_of(const std::string& value, const std::vector<std::string>& allowed, const std::string& key,
+            const std::string& where) {
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+  const std::string nearest = nearest_name(value, allowed);
+  throw InputError(fmt::format("{} is \"{}\"", key, value), where,
+                   fmt::format("{}this version offers: {}",
+                               nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
+                               fmt::join(allowed, ", ")));
+}
+
+} // namespace
+
+void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where) {
+  const auto number = [&](const std::string& key, double value, bool good, const std::string& range) {
+    require(std::isfinite(value) && good, fmt::format("{} is {:g}", key, value), where(key), "it must be " + range);
+  };
+  const auto name = [&](const std::string& key, const std::string& value, const std::vector<std::string>& allowed) {
+    one_of(value, allowed, key, where(key));
+  };
+
+  const MaterialSpec& m = scene.material;
+  name("material.law", m.law, {"hencky"});
+  number("material.density", m.density, m.density > 0, "positive (kg/m^3)");
+  number("material.young", m.young, m.young > 0, "positive (Pa)");
+  number("material.poisson", m.poisson, m.poisson > -1 && m.poisson < 0.5,
+         "above -1 and below 0.5: at 0.5 pressure waves are infinitely fast");
+  if (m.plasticity) {
+    number("material.plasticity.yield", m.plasticity->yield, m.plasticity->yield > 0, "positive (Pa)");
+    number("material.plasticity.hardening", m.plasticity->hardening, m.plasticity->hardening >= 0,
+           "zero or positive (Pa)");
+  }
+
+  name("solver.formulation", scene.formulation, {"auto", "pF"});
+  name("solver.scheme", scene.scheme, {"thesis"});
+  name("solver.kernel", scene.kernel, {"wendland"});
+  if (scene.support)
+    number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
+           "above 1 and at most 6 (kernel radius over the spacing)");
+  number("solver.neighbours", scene.neighbours, scene.neighbours >= 8 && scene.neighbours <= 200, "from 8 to 200");
+  number("solver.jst4", scene.jst4, scene.jst4 >= 0 && scene.jst4 <= 1, "from 0 to 1");
+  number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
+  number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
+
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const PlaneWall& wall = scene.walls[i];
+    number(fmt::format("wall.{}.plane", i), wall.normal.norm(), wall.point.allFinite() && wall.normal.norm() > 0,
+           "a point and a normal of positive length");
+    number(fmt::format("wall.{}.restitution", i), wall.restitution, wall.restitution >= 0 && wall.restitution <= 1,
+           "from 0 to 1");
+  }
+  for (std::size_t i = 0; i < scene.fixed.size(); ++i) {
+    const auto& c = scene.fixed[i].component;
+    require(c[0] || c[1] || c[2], "no component is fixed", where(fmt::format("boundary.{}.components", i)),
+            "name at least one of \"x\", \"y\", \"z\"");
+  }
+
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+    const Probe& probe = scene.probes[i];
+    const std::string key = fmt::format("output.probe.{}", i);
+    name(key + ".quantity", probe.quantity, probe_quantities());
+    name(key + ".reduce", probe.reduce, probe_reductions());
+    require(seen.insert(column_name(probe)).second, fmt::format("two probes are named '{}'", probe.name),
+            where(key + ".name"), "give each its own name");
+  }
+  number("output.frames", scene.frames, scene.frames >= 1 && scene.frames <= 100000, "from 1 to 100000");
+  number("output.history_rows", scene.history_rows, scene.history_rows >= 1 && scene.history_rows <= 10000000,
+         "from 1 to 10000000");
+}
+
+} // namespace tessera::solver

@@ -1,0 +1,98 @@
+/// One step of the mixed scheme: stages, momentum projection, conditions, and the ledger of work done.
+#pragma once
+
+#include "solver/boundary/fixed.hpp"
+#include "solver/boundary/wall.hpp"
+#include "solver/physics/body.hpp"
+#include "solver/time/momentum_projection.hpp"
+#include "solver/time/runge_kutta.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace tessera::solver {
+
+template <class Body> class Step {
+public:
+  static constexpr int D = Body::dimension;
+
+  Step(std::vector<Fixed<D>> fixed, std::vector<Plane<D>> walls, bool momentum_projection)
+      : fixed_(std::move(fixed)), walls_(std::move(walls)), projects_(momentum_projection) {}
+
+  double dissipated() const { return dissipated_; } ///< J, by JST and the momentum projection
+  double external() const { return external_; }     ///< J, work done on the body by walls
+
+  /// Conditions on the initial momenta; `dt` is the step to come.
+  void start(Body& body, double dt) {
+    numerical_.assign(body.V.size(), Vec<D>::Zero());
+    if (!walls_.empty()) contact_.assign(body.V.size(), Vec<D>::Zero());
+    for (const Fixed<D>& condition : fixed_) condition.apply(body.U.p);
+    before_ = body.U;
+    hold(body, dt, 1.0);
+    account(body);
+  }
+
+  /// U^n to U^(n+1). On Breakdown the body is back at U^n and the exception goes on.
+  void operator()(Body& body, double dt) {
+    auto& U = body.U;
+    auto& R = body.R;
+    before_ = U;
+    try {
+      body.rates();
+      project(body, U.x, dt);
+      advance(U, dt, R);
+      hold(body, dt, 0.5);
+      body.stresses();
+
+      body.rates();
+      average(U.x, before_.x, dt, R.x);
+      project(body, U.x, dt);
+      average(U.p, before_.p, dt, R.p);
+      average(U.F, before_.F, dt, R.F);
+      hold(body, dt, 1.0);
+      body.commit();
+    } catch (const Breakdown&) {
+      body.U = before_;
+      body.stresses();
+      throw;
+    }
+    account(body);
+  }
+
+private:
+  /// Makes the nodal forces self-equilibrated about Gamma, and notes what is not the divergence of P.
+  void project(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
+    if (projects_) project_momentum<D>(body.R.p, Gamma, body.V);
+    for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
+  }
+
+  /// Essential conditions and contact on the momenta of a stage; `share` of a change reaches U^(n+1).
+  void hold(Body& body, double dt, double share) {
+    for (const Plane<D>& wall : walls_) wall.apply(body.U.x, body.U.p, body.density, dt, share, contact_);
+    for (const Fixed<D>& condition : fixed_) condition.apply(body.U.p);
+  }
+
+  /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
+  void account(const Body& body) {
+    const auto work_of = [&](std::vector<Vec<D>>& impulse) {
+      const double work = sum(body.size(), 0.0, [&](std::int64_t a) {
+        return body.V[a] * impulse[a].dot(before_.p[a] + body.U.p[a]) / (2 * body.density);
+      });
+      for_each(body.size(), [&](std::int64_t a) { impulse[a].setZero(); });
+      return work;
+    };
+    dissipated_ -= work_of(numerical_);
+    if (!walls_.empty()) external_ += work_of(contact_);
+  }
+
+  std::vector<Fixed<D>> fixed_;
+  std::vector<Plane<D>> walls_;
+  bool projects_;
+  typename Body::Formulation before_;
+  std::vector<Vec<D>> numerical_; ///< impulse of dissipation and projection in this step, kg/(m^2 s)
+  std::vector<Vec<D>> contact_;   ///< impulse of the walls in this step, kg/(m^2 s)
+  double dissipated_ = 0;
+  double external_ = 0;
+};
+
+} // namespace tessera::solver
