@@ -1,0 +1,135 @@
+#include "app/command_line.hpp"
+
+#include "app/commands/commands.hpp"
+#include "core/error.hpp"
+#include "core/particle_cloud.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+
+namespace tessera::app {
+namespace {
+
+struct Grammar {
+  CLI::App app{"CAD to particle clouds, mixed total-Lagrangian JST-SPH solid dynamics", "tessera"};
+  Invocation invocation;
+
+  Grammar() {
+    Options& o = invocation.options;
+    app.set_version_flag("--version", std::string("tessera ") + TESSERA_VERSION,
+                         "Print the version and exit");
+    app.set_help_flag("-h,--help", "Print this help and exit");
+    app.add_option("--set", o.overrides,
+                   "Override a key of the case, as in --set particles.seed=7 (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--threads", o.threads,
+                   "Threads to use (all cores unless given); results do not depend on it")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    app.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    app.add_flag("--json", o.json, "Print the result as JSON on standard output, and nothing else there");
+    app.footer("Exit status: 0 good, 1 the run failed, 2 bad usage or input.");
+    app.require_subcommand(1);
+    app.fallthrough();
+
+    CLI::App* run_command = add("run", "Prepare the particles, solve, draw: the whole of a case", run);
+    CLI::App* prepare_command =
+        add("prepare", "From the CAD file to particles with their subvolumes", prepare);
+    CLI::App* solve_command = add("solve", "Run the solver on particles prepared earlier (or now)", solve);
+    CLI::App* post_command = add("post", "Draw pictures and write the report of a run again", post);
+    CLI::App* check_command = add("check", "Validate a case and foretell its run; writes nothing", check);
+    CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
+
+    for (CLI::App* command : {run_command, prepare_command, solve_command, check_command})
+      command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
+          ->type_name("CASE.toml")
+          ->required();
+    post_command->add_option("folder", o.folders, "Folder of a run")
+        ->type_name("DIR")
+        ->required()
+        ->expected(1);
+    compare_command->add_option("folders", o.folders, "Folders of runs")->type_name("DIR")->required();
+    for (CLI::App* command : {run_command, prepare_command, solve_command, compare_command})
+      command->add_option("-o,--output", o.output, "Folder to write to (runs/NAME unless given)")
+          ->type_name("DIR");
+    for (CLI::App* command : {run_command, prepare_command})
+      command->add_flag("--cells", o.cells, "Also write the Voronoi cells (cells.vtu)");
+    solve_command
+        ->add_option("--cloud", o.cloud, "Particles to use (the output folder's cloud.vtp unless given)")
+        ->type_name("FILE");
+  }
+
+  std::vector<std::string> command_names() const {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+      names.push_back(command->get_name());
+    return names;
+  }
+
+  std::vector<std::string> option_names() const {
+    std::vector<std::string> names;
+    const auto collect = [&](const CLI::App* of) {
+      for (const CLI::Option* option : of->get_options())
+        for (const std::string& name : option->get_lnames())
+          names.push_back("--" + name);
+    };
+    collect(&app);
+    for (const CLI::App* command : app.get_subcommands())
+      collect(command);
+    return names;
+  }
+
+ private:
+  CLI::App* add(const std::string& name, const std::string& help, Command command) {
+    CLI::App* sub = app.add_subcommand(name, help);
+    sub->fallthrough();
+    sub->callback([this, command] { invocation.command = command; });
+    return sub;
+  }
+};
+
+/// The library's complaint in our words: nearest command or option, and where help is.
+InputError usage_error(const Grammar& grammar, const CLI::ParseError& error) {
+  const auto guess = [](const std::string& word, const std::vector<std::string>& names) {
+    const std::string nearest = word.size() > 64 ? "" : nearest_name(word, names);
+    return nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
+  };
+  const std::vector<CLI::App*> chosen = grammar.app.get_subcommands();
+  const std::string help =
+      chosen.empty() ? "tessera --help" : fmt::format("tessera {} --help", chosen.front()->get_name());
+  const std::vector<std::string> extras = grammar.app.remaining(true);
+  for (const std::string& extra : extras)
+    if (extra.starts_with("-"))
+      return {fmt::format("unknown option '{}'", extra), "",
+              fmt::format("{}see {}", guess(extra.substr(0, extra.find('=')), grammar.option_names()), help)};
+  if (chosen.empty()) {
+    const std::vector<std::string> names = grammar.command_names();
+    return {extras.empty() ? "no command given" : fmt::format("unknown command '{}'", extras.front()), "",
+            fmt::format("{}commands: {} (see tessera --help)",
+                        extras.empty() ? "" : guess(extras.front(), names), fmt::join(names, ", "))};
+  }
+  if (!extras.empty())
+    return {fmt::format("unexpected argument '{}'", extras.front()), "", "see " + help};
+  return {error.what(), "", "see " + help};
+}
+
+} // namespace
+
+Invocation parse_command_line(int argc, const char* const* argv) {
+  Grammar grammar;
+  try {
+    grammar.app.parse(argc, argv);
+  } catch (const CLI::Success& success) { // --help, --version
+    grammar.app.exit(success, std::cout, std::cerr);
+    return {};
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(grammar, error);
+  }
+  return grammar.invocation;
+}
+
+} // namespace tessera::app

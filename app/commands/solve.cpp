@@ -1,0 +1,44 @@
+#include "app/commands/commands.hpp"
+#include "app/run_folder.hpp"
+#include "app/stages.hpp"
+#include "io/cloud_file.hpp"
+
+#include <fmt/format.h>
+
+namespace tessera::app {
+
+void solve(const Options& options) {
+  Console console(options);
+  const Case the_case = read_case(options.case_file, options.overrides);
+  const std::filesystem::path folder = options.output.empty() ? default_folder(the_case) : options.output;
+
+  // Everything that can be wrong with the input is found before the folder is touched.
+  const bool named = !options.cloud.empty();
+  const bool stored = !named && holds_cloud_of(folder, the_case);
+  std::optional<ParticleCloud> cloud;
+  if (named || stored)
+    cloud = io::read_cloud(named ? options.cloud : folder / "cloud.vtp");
+  else
+    require_cad_file(the_case);
+  if (cloud)
+    require_sets(the_case, *cloud);
+  open_folder(folder);
+  console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
+
+  if (cloud) {
+    console.progress().note(
+        fmt::format("particles from {}", (named ? options.cloud : folder / "cloud.vtp").string()));
+    remove_solution(folder);
+    store_case(the_case, options.overrides, folder);
+    if (named)
+      io::write_cloud(*cloud, folder / "cloud.vtp");
+  } else {
+    remove_all_results(folder);
+    store_case(the_case, options.overrides, folder);
+    cloud = prepare_particles(the_case, folder, false, console).cloud;
+  }
+  const Solution solution = solve_particles(the_case, *cloud, folder, console);
+  console.result(describe(the_case, solution.summary, folder, {}), solution.json);
+}
+
+} // namespace tessera::app

@@ -1,0 +1,24 @@
+/// What the command line asks for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tessera::app {
+
+struct Options {
+  std::filesystem::path case_file;            ///< run, prepare, solve, check
+  std::vector<std::filesystem::path> folders; ///< post (one), compare (several)
+  std::filesystem::path output;               ///< -o; empty: chosen by the command
+  std::filesystem::path cloud; ///< solve: particles stored earlier; empty: the output folder's own
+  bool cells = false;          ///< run, prepare: also write the Voronoi cells
+
+  std::vector<std::string> overrides; ///< --set key=value, in order
+  int threads = 0;                    ///< 0: all cores
+  bool quiet = false;
+  bool json = false;
+};
+
+} // namespace tessera::app

@@ -1,0 +1,86 @@
+#include "app/run_folder.hpp"
+
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace tessera::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* signature = "# Written by tessera";
+
+bool is_ours(const fs::path& folder) {
+  for (const char* name : {"summary.json", "quality.json", "cloud.vtp", "fields.pvd", "compare.json"})
+    if (fs::exists(folder / name))
+      return true;
+  std::ifstream stored(folder / "case.toml");
+  std::string line;
+  return std::getline(stored, line) && line.starts_with(signature);
+}
+
+} // namespace
+
+fs::path default_folder(const Case& the_case) {
+  return fs::path("runs") / the_case.name;
+}
+
+void open_folder(const fs::path& folder) {
+  std::error_code failed;
+  if (fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) && !failed)
+    require(is_ours(folder), "the output folder holds files that are not a run's", folder.string(),
+            "name an empty or new folder with -o");
+  io::make_output_folder(folder);
+}
+
+void store_case(const Case& the_case, const std::vector<std::string>& overrides, const fs::path& folder) {
+  std::string header = fmt::format("{} {} from {}", signature, TESSERA_VERSION, the_case.path.string());
+  for (const std::string& assignment : overrides)
+    header += " --set " + assignment;
+  for (char& c : header)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      c = ' ';
+  io::write_text(folder / "case.toml", header + "\n" + the_case.text);
+}
+
+void remove_solution(const fs::path& folder) {
+  for (const char* name : {"summary.json", "history.csv", "fields.pvd", "report.md"})
+    fs::remove(folder / name);
+  fs::remove_all(folder / "fields");
+  std::vector<fs::path> pictures;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".png" && entry.path().filename() != "cloud.png")
+      pictures.push_back(entry.path());
+  for (const fs::path& picture : pictures)
+    fs::remove(picture);
+}
+
+void remove_all_results(const fs::path& folder) {
+  remove_solution(folder);
+  for (const char* name : {"cloud.vtp", "cells.vtu", "quality.json", "cloud.png"})
+    fs::remove(folder / name);
+}
+
+bool holds_cloud_of(const fs::path& folder, const Case& the_case) {
+  const fs::path cloud = folder / "cloud.vtp", stored = folder / "case.toml";
+  std::error_code failed;
+  if (!fs::exists(cloud, failed) || !fs::exists(stored, failed))
+    return false;
+  const auto made = fs::last_write_time(cloud, failed);
+  if (failed)
+    return false;
+  const auto changed = fs::last_write_time(the_case.geometry.file, failed);
+  if (!failed && changed > made)
+    return false;
+  try {
+    return read_case(stored, {}).cloud_text == the_case.cloud_text;
+  } catch (const InputError&) { // stored by another version: its cloud may differ as well
+    return false;
+  }
+}
+
+} // namespace tessera::app

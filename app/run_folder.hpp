@@ -1,0 +1,30 @@
+/// The folder of a run: made before any work is done, never over somebody else's files.
+#pragma once
+
+#include "app/case/case.hpp"
+
+#include <filesystem>
+
+namespace tessera::app {
+
+/// Where a case's results go unless -o says otherwise: runs/NAME in the current directory.
+std::filesystem::path default_folder(const Case& the_case);
+
+/// Creates the folder and proves that files can be written in it. InputError when they cannot, or when the
+/// folder already holds files but none of ours.
+void open_folder(const std::filesystem::path& folder);
+
+/// Stores the case with its overrides, so that the folder alone is enough to repeat or redraw the run.
+void store_case(const Case& the_case, const std::vector<std::string>& overrides,
+                const std::filesystem::path& folder);
+
+/// Removes what an earlier run left: its results do not belong to what is computed next.
+void remove_solution(const std::filesystem::path& folder);
+/// The same with the particles.
+void remove_all_results(const std::filesystem::path& folder);
+
+/// Whether the folder's cloud.vtp was made from this case's geometry, particles and sets, and after the CAD
+/// file was last changed.
+bool holds_cloud_of(const std::filesystem::path& folder, const Case& the_case);
+
+} // namespace tessera::app

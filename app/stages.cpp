@@ -1,0 +1,132 @@
+#include "app/stages.hpp"
+
+#include "app/summary.hpp"
+#include "core/error.hpp"
+#include "core/interrupt.hpp"
+#include "io/atomic_file.hpp"
+#include "io/cloud_file.hpp"
+#include "io/series.hpp"
+#include "postprocess/report.hpp"
+
+#include <fmt/format.h>
+
+namespace tessera::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As a shell would want it.
+std::string shell_word(const fs::path& path) {
+  const std::string word = path.string();
+  return word.find_first_of(" \t'\"\\$&;()*?[]<>|#~`!{}") == std::string::npos ? word
+                                                                               : fmt::format("'{}'", word);
+}
+
+} // namespace
+
+void require_cad_file(const Case& the_case) {
+  std::error_code failed;
+  require(fs::is_regular_file(the_case.geometry.file, failed),
+          fmt::format("there is no CAD file {}", the_case.geometry.file.string()),
+          the_case.where("geometry.file"), "paths are relative to the case file");
+}
+
+void require_sets(const Case& the_case, const ParticleCloud& cloud) {
+  const auto require_set = [&](const std::string& name, const std::string& key) {
+    if (name == "all" || cloud.has_set(name))
+      return;
+    try {
+      cloud.set(name);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}: {}", key, e.what()), the_case.where(key), "");
+    }
+  };
+  const solver::SceneSpec& scene = the_case.scene;
+  for (std::size_t i = 0; i < scene.initial.size(); ++i)
+    require_set(scene.initial[i].on, fmt::format("initial.{}.on", i));
+  for (std::size_t i = 0; i < scene.fixed.size(); ++i)
+    require_set(scene.fixed[i].on, fmt::format("boundary.{}.on", i));
+  for (std::size_t i = 0; i < scene.probes.size(); ++i)
+    require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
+}
+
+preprocess::Prepared prepare_particles(const Case& the_case, const fs::path& folder, bool cells,
+                                       Console& console) {
+  const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
+  stop_if_interrupted("import");
+  preprocess::ParticleRequest request = the_case.particles;
+  request.keep_cells = cells;
+  preprocess::Prepared prepared = preprocess::prepare(domain, request, console.progress());
+  require_sets(the_case, prepared.cloud);
+  stop_if_interrupted("preparation");
+
+  io::write_cloud(prepared.cloud, folder / "cloud.vtp");
+  if (cells)
+    io::write_cells(prepared.cells, prepared.cloud, folder / "cells.vtu");
+  io::write_text(folder / "quality.json", preprocess::to_json(prepared.quality));
+  post::draw_cloud(folder, console.progress());
+  return prepared;
+}
+
+Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const fs::path& folder,
+                         Console& console) {
+  require_sets(the_case, cloud);
+  io::FrameSeries series(folder);
+  io::HistoryFile history(folder / "history.csv");
+  int frames = 0;
+  double last = 0;
+  const solver::Outputs outputs{[&](const Frame& frame) {
+                                  series.write(frame);
+                                  ++frames;
+                                  last = frame.time;
+                                },
+                                [&](const std::vector<std::string>& columns) { history.columns(columns); },
+                                [&](const std::vector<double>& row) { history.row(row); }};
+  Solution solution;
+  try {
+    solution.summary = solver::run(the_case.scene, cloud, outputs, console.progress());
+  } catch (const RunError& e) {
+    if (frames == 0)
+      throw;
+    throw RunError(
+        e.what(),
+        fmt::format("{} frames up to {:.4g} s and history.csv are kept in {}", frames, last, folder.string()),
+        fmt::format("draw them with: tessera post {}; solve anew with: tessera solve {} -o {}",
+                    shell_word(folder), shell_word(folder / "case.toml"), shell_word(folder)));
+  }
+  solution.json = summary_json(the_case, cloud, solution.summary);
+  io::write_text(folder / "summary.json", solution.json);
+  return solution;
+}
+
+std::vector<fs::path> draw_results(const Case& the_case, const fs::path& folder, Console& console) {
+  std::vector<fs::path> files;
+  if (!the_case.pictures.empty())
+    files = post::draw(the_case.pictures, {folder}, {the_case.title}, folder, console.progress());
+  for (const fs::path& file : post::write_report(folder, console.progress()))
+    files.push_back(file);
+  return files;
+}
+
+std::string describe(const Case& the_case, const solver::Summary& s, const fs::path& folder,
+                     const std::vector<fs::path>& drawn) {
+  std::string text = fmt::format(
+      "{}: {} particles, {} steps to {:.4g} s in {} ({:.2f} us per particle and step)\n", the_case.title,
+      s.particles, s.steps, s.time, duration(s.wall_seconds), s.us_per_particle_step);
+  const auto line = [&](const std::string& what, double value, const char* unit) {
+    text += fmt::format("  {:<28}{:.6g}{}{}\n", what, value, *unit == '\0' ? "" : " ", unit);
+  };
+  for (const auto& [name, value] : s.probes)
+    line(name, value, "");
+  if (the_case.scene.material.plasticity)
+    line("largest plastic strain", s.max_equivalent_plastic_strain, "");
+  line("largest von Mises stress", s.max_von_mises, "Pa");
+  line("smallest J", s.min_jacobian, "");
+  line("energy balance error", s.energy.balance_error, "");
+  text += fmt::format("results in {}: summary.json, history.csv, fields.pvd (ParaView)", folder.string());
+  for (const fs::path& file : drawn)
+    text += ", " + file.filename().string();
+  return text + "\n";
+}
+
+} // namespace tessera::app

@@ -1,0 +1,40 @@
+/// The three stages of a case with their files: prepare, solve, draw.
+#pragma once
+
+#include "app/case/case.hpp"
+#include "app/console.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tessera::app {
+
+/// InputError naming the key of the case when the CAD file is not there.
+void require_cad_file(const Case& the_case);
+
+/// InputError naming the key of the case when a set it speaks of is not one of the cloud's.
+void require_sets(const Case& the_case, const ParticleCloud& cloud);
+
+/// Imports and fills the body: cloud.vtp, quality.json, cloud.png and, where `cells`, cells.vtu.
+preprocess::Prepared prepare_particles(const Case& the_case, const std::filesystem::path& folder, bool cells,
+                                       Console& console);
+
+/// Runs the solver: history.csv, fields.pvd, fields/, summary.json. Returns the text of summary.json.
+/// A run that fails or is interrupted leaves its frames and history, no summary, and a RunError that says so.
+struct Solution {
+  solver::Summary summary;
+  std::string json;
+};
+Solution solve_particles(const Case& the_case, const ParticleCloud& cloud,
+                         const std::filesystem::path& folder, Console& console);
+
+/// The case's pictures, the plots and report.md from what the folder holds. Returns the files written.
+std::vector<std::filesystem::path> draw_results(const Case& the_case, const std::filesystem::path& folder,
+                                                Console& console);
+
+/// A finished run for a person to read.
+std::string describe(const Case& the_case, const solver::Summary& summary,
+                     const std::filesystem::path& folder, const std::vector<std::filesystem::path>& drawn);
+
+} // namespace tessera::app

@@ -1,0 +1,127 @@
+#include "app/summary.hpp"
+
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json list(const Vec3& x) {
+  return Json::array({x[0], x[1], x[2]});
+}
+
+std::string words(const std::vector<std::string>& list) {
+  return list.empty() ? "nothing" : fmt::format("{}", fmt::join(list, ", "));
+}
+
+/// Names come from files and may not be UTF-8; a result must not be lost over one.
+std::string print(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace
+
+std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const solver::Summary& s) {
+  Json json;
+  json["case"] = the_case.name;
+  json["title"] = the_case.title;
+  json["version"] = TESSERA_VERSION;
+  json["formulation"] = s.formulation;
+  json["scheme"] = s.scheme;
+  json["arrangement"] = cloud.arrangement;
+  json["subvolumes"] = cloud.subvolumes;
+  json["seed"] = cloud.seed;
+  json["dimension"] = cloud.dimension;
+  json["particles"] = s.particles;
+  json["neighbours_mean"] = s.neighbours_mean;
+  json["support"] = s.support;
+  json["spacing"] = cloud.spacing;
+  json["steps"] = s.steps;
+  json["time"] = s.time;
+  json["dt_min"] = s.dt_min;
+  json["dt_max"] = s.dt_max;
+  json["wall_seconds"] = s.wall_seconds;
+  json["us_per_particle_step"] = s.us_per_particle_step;
+  json["threads"] = s.threads;
+  json["bytes_per_particle"] = s.bytes_per_particle;
+  json["volume_sum"] =
+      sum(cloud.size(), 0.0, [&](std::int64_t a) { return cloud.V[static_cast<std::size_t>(a)]; });
+  json["energy"] = {{"kinetic", s.energy.kinetic},   {"internal", s.energy.internal},
+                    {"plastic", s.energy.plastic},   {"dissipated", s.energy.dissipated},
+                    {"external", s.energy.external}, {"balance_error", s.energy.balance_error}};
+  json["momentum"] = {{"linear_drift", s.linear_drift}, {"angular_drift", s.angular_drift}};
+  json["max"] = {{"equivalent_plastic_strain", s.max_equivalent_plastic_strain},
+                 {"von_mises", s.max_von_mises},
+                 {"pressure", s.max_pressure},
+                 {"displacement", s.max_displacement}};
+  json["min"] = {{"jacobian", s.min_jacobian}};
+  json["extent_min"] = list(s.extent_min);
+  json["extent_max"] = list(s.extent_max);
+  json["probes"] = Json::object();
+  for (const auto& [name, value] : s.probes)
+    json["probes"][name] = value;
+  return print(json);
+}
+
+std::string outlook_json(const Case& the_case, const Outlook& o) {
+  const solver::Forecast& f = o.forecast;
+  Json json;
+  json["case"] = the_case.name;
+  json["title"] = the_case.title;
+  json["version"] = TESSERA_VERSION;
+  json["geometry"] = the_case.geometry.file.string();
+  json["unit"] = the_case.geometry.unit;
+  json["lower"] = list(o.lower);
+  json["upper"] = list(o.upper);
+  json["cad_volume"] = o.quality.cad_volume;
+  json["domain_volume"] = o.quality.domain_volume;
+  json["volume_error"] = o.quality.volume_error;
+  json["particles"] = o.quality.particles;
+  json["spacing"] = o.spacing;
+  json["sets"] = o.sets;
+  json["mass"] = f.mass;
+  json["wave_speed"] = f.wave_speed;
+  json["dt"] = f.dt;
+  json["steps"] = f.steps;
+  json["neighbours_mean"] = f.neighbours_mean;
+  json["bytes_per_particle"] = f.bytes_per_particle;
+  json["seconds"] = f.seconds;
+  json["modelled"] = f.modelled;
+  json["left_out"] = f.left_out;
+  return print(json);
+}
+
+std::string outlook_text(const Case& the_case, const Outlook& o) {
+  const solver::Forecast& f = o.forecast;
+  const Vec3 size = o.upper - o.lower;
+  std::string text = the_case.title + "\n";
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("  {:<14}{}\n", what, value);
+  };
+  line("geometry", fmt::format("{} (unit {})", the_case.geometry.file.string(), the_case.geometry.unit));
+  line("bounding box", fmt::format("{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}) m", size[0],
+                                   size[1], size[2], o.lower[0], o.lower[1], o.lower[2]));
+  line("volume", fmt::format("{:.6g} m^3 (CAD {:.6g} m^3)", o.quality.domain_volume, o.quality.cad_volume));
+  line("particles", fmt::format("{}, spacing {:.4g} m, {:.1f} neighbours each", o.quality.particles,
+                                o.spacing, f.neighbours_mean));
+  line("sets", o.sets.empty() ? "none" : words(o.sets));
+  line("modelled", words(f.modelled));
+  line("left out", words(f.left_out));
+  line("mass", fmt::format("{:.6g} kg", f.mass));
+  line("wave speed", fmt::format("{:.6g} m/s", f.wave_speed));
+  line("time step",
+       fmt::format("{:.4g} s: at least {} steps to {:.4g} s", f.dt, f.steps, the_case.scene.end_time));
+  line("memory", fmt::format("{:.1f} MB ({:.0f} bytes a particle)",
+                             f.bytes_per_particle * static_cast<double>(o.quality.particles) / 1e6,
+                             f.bytes_per_particle));
+  line("time", fmt::format("about {} on {} threads", duration(f.seconds), threads()));
+  return text;
+}
+
+} // namespace tessera::app
