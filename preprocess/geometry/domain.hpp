@@ -1,4 +1,5 @@
-/// A body as the tessellator sees it: tetrahedra, tagged boundary triangles, and the CAD's own edges and corners.
+/// A body as the tessellator sees it: tetrahedra, tagged boundary triangles, and the CAD's own edges and
+/// corners.
 #pragma once
 
 #include "core/tensor.hpp"
@@ -26,18 +27,18 @@ struct Domain {
   /// Named by the CAD or mesh file: a physical group, or a CAD face's own name.
   struct Group {
     std::string name;
-    int dimension = 2;                   ///< of its entities: 0 points, 1 curves, 2 surfaces, 3 volumes
-    std::vector<std::int32_t> surfaces;  ///< for dimension 2: indices into `surfaces`
-    std::vector<std::int32_t> curves;    ///< for dimension 1
-    std::vector<std::int32_t> vertices;  ///< for dimension 0
+    int dimension = 2;                  ///< of its entities: 0 points, 1 curves, 2 surfaces, 3 volumes
+    std::vector<std::int32_t> surfaces; ///< for dimension 2: indices into `surfaces`
+    std::vector<std::int32_t> curves;   ///< for dimension 1
+    std::vector<std::int32_t> vertices; ///< for dimension 0
   };
 
   std::vector<Vec3> vertices;
   std::vector<std::array<std::int32_t, 4>> tets; ///< all of positive volume
   std::vector<Facet> facets;
   std::vector<FeatureEdge> feature_edges;
-  std::vector<std::int32_t> corners;  ///< vertices that are CAD corners (end of feature curves)
-  std::vector<std::string> surfaces;  ///< names of the CAD surfaces ("face1" where the file names none)
+  std::vector<std::int32_t> corners; ///< vertices that are CAD corners (end of feature curves)
+  std::vector<std::string> surfaces; ///< names of the CAD surfaces ("face1" where the file names none)
   std::vector<Group> groups;
 
   double volume = 0;     ///< sum of the tetrahedra, m^3
@@ -49,8 +50,9 @@ struct Domain {
   /// Fills volume, lower and upper from vertices and tets.
   void measure();
 
-  /// Throws InputError naming `origin` unless tets are positive, every facet has its tetrahedron, and the facets
-  /// close: each edge of the boundary is shared by an even number of facets and their area vectors sum to zero.
+  /// Throws InputError naming `origin` unless tets are positive, every facet has its tetrahedron, and the
+  /// facets close: each edge of the boundary is shared by an even number of facets and their area vectors sum
+  /// to zero.
   void validate(const std::string& origin) const;
 };
 

@@ -1,0 +1,235 @@
+#include "preprocess/geometry/import.hpp"
+
+#include "core/error.hpp"
+#include "preprocess/geometry/cad_file.hpp"
+#include "preprocess/geometry/child.hpp"
+#include "preprocess/geometry/domain_stream.hpp"
+#include "preprocess/geometry/geo_script.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace tessera::preprocess {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder nobody else can enter, gone with its contents at the end of the scope.
+class PrivateFolder {
+ public:
+  PrivateFolder() {
+    std::error_code error;
+    const fs::path base = fs::temp_directory_path(error);
+    std::string name = ((error ? fs::path("/tmp") : base) / "tessera-import-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw RunError(fmt::format("no temporary folder can be made: {}", std::strerror(errno)), name,
+                     "free space there or set TMPDIR to a folder that can be written");
+    path_ = name;
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  ~PrivateFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// The importer: in $TESSERA_LIBEXEC, else beside the running program, else where it was installed.
+fs::path importer_program() {
+  constexpr const char* program = "tessera-import";
+  if (const char* folder = std::getenv("TESSERA_LIBEXEC"); folder != nullptr && *folder != '\0')
+    return fs::absolute(fs::path(folder) / program);
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  if (!error && fs::exists(self.parent_path() / program, error))
+    return self.parent_path() / program;
+  return fs::path(TESSERA_IMPORTER_FOLDER) / program;
+}
+
+/// Last line of the importer's output that says something, for people to read.
+std::string last_words(const std::string& output) {
+  std::string last;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    std::string clean; // without OpenCASCADE's colours
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (line[i] == '\x1b')
+        i = std::min(line.find('m', i), line.size());
+      else if (static_cast<unsigned char>(line[i]) >= 0x20)
+        clean += line[i];
+    }
+    const auto says = clean.find_first_not_of(" *-=");
+    if (says != std::string::npos)
+      last = clean.substr(clean.find_first_not_of(' '));
+  }
+  constexpr std::size_t longest = 300;
+  if (last.size() > longest)
+    last = last.substr(0, longest) + "...";
+  return last;
+}
+
+std::string quoted_last_words(const std::string& output) {
+  const std::string words = last_words(output);
+  return words.empty() ? std::string{} : fmt::format(" (it last said \"{}\")", words);
+}
+
+bool speaks_of_memory(const std::string& output) {
+  for (const char* words :
+       {"bad_alloc", "out of memory", "Out of memory", "OUT OF MEMORY", "Cannot allocate",
+        "could not allocate", "Could not allocate", "memory exhausted", "Not enough memory"})
+    if (output.find(words) != std::string::npos)
+      return true;
+  return false;
+}
+
+/// Throws what the end of the importer means to a user, unless it ended well.
+void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path& program) {
+  const std::string name = source.file.string();
+  const auto mebibytes = source.bytes >> 20;
+  const auto out_of_memory = [&] {
+    return InputError(fmt::format("the import needs more than its memory limit of {} MiB", mebibytes), name,
+                      "raise the limit, loosen [geometry] tolerance or simplify the part");
+  };
+  switch (end.how) {
+  case ChildEnd::How::not_started:
+    throw RunError(fmt::format("the importer cannot be started: {}", std::strerror(end.code)),
+                   program.string(),
+                   "reinstall, or set TESSERA_LIBEXEC to the folder that holds tessera-import");
+  case ChildEnd::How::interrupted:
+    throw RunError("interrupted during import", name, "run the same command again to start it anew");
+  case ChildEnd::How::out_of_time:
+    throw InputError(fmt::format("the import takes longer than its limit of {:g} s{}", source.seconds,
+                                 quoted_last_words(end.output)),
+                     name, "raise the limit, loosen [geometry] tolerance or simplify the part");
+  case ChildEnd::How::signalled:
+    if (speaks_of_memory(end.output) || end.peak_bytes > source.bytes / 4 * 3)
+      throw out_of_memory();
+    throw InputError(fmt::format("the CAD kernel crashed on this file: {}{}", ::strsignal(end.code),
+                                 quoted_last_words(end.output)),
+                     name, "heal the part in a CAD program and export it again");
+  case ChildEnd::How::exited:
+    break;
+  }
+  if (end.code == 0)
+    return;
+  if (end.code == 3 || speaks_of_memory(end.output))
+    throw out_of_memory();
+  constexpr std::string_view prefix = "tessera-import: ";
+  if (const std::string words = last_words(end.output); words.starts_with(prefix))
+    throw InputError(words.substr(prefix.size()), "", "");
+  throw InputError(
+      fmt::format("the importer failed with status {}{}", end.code, quoted_last_words(end.output)), name,
+      "heal the part in a CAD program and export it again");
+}
+
+/// OpenCASCADE's name for the unit a STEP file is read in: its own, so that the kernel's absolute tolerances
+/// see the part at the size it was drawn; the case's where the file declares none we know.
+std::string step_unit(const GeometrySource& source, Progress& progress) {
+  const std::string declared = step_length_unit(read_text(source.file));
+  if (declared.empty() || declared == "ft")
+    return source.unit;
+  if (declared != source.unit)
+    progress.note(
+        fmt::format("{} is written in {}, not in {}: STEP files carry their own unit, and it counts",
+                    source.file.filename().string(), declared, source.unit));
+  return declared;
+}
+
+std::string occ_name(const std::string& unit) {
+  static const std::map<std::string, std::string> names{
+      {"m", "M"}, {"cm", "CM"}, {"mm", "MM"}, {"um", "UM"}, {"in", "INCH"}};
+  return names.at(unit);
+}
+
+void note_domain(const Domain& domain, const GeometrySource& source, Progress& progress) {
+  const double metres = metres_per_unit(source.unit);
+  const Vec3 low = domain.lower / metres, high = domain.upper / metres;
+  progress.note(fmt::format("{}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) {}",
+                            source.file.filename().string(), low[0], low[1], low[2], high[0], high[1],
+                            high[2], source.unit));
+  progress.note(fmt::format(
+      "volume {:.9g} m^3 in {} tetrahedra, {:.9g} m^3 by the CAD ({:+.2g} relative); {} surfaces, {} "
+      "corners",
+      domain.volume, domain.tets.size(), domain.cad_volume,
+      (domain.volume - domain.cad_volume) / domain.cad_volume, domain.surfaces.size(),
+      domain.corners.size()));
+}
+
+} // namespace
+
+double metres_per_unit(const std::string& unit) {
+  static const std::map<std::string, double> units{
+      {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"in", 0.0254}};
+  const auto it = units.find(unit);
+  if (it == units.end())
+    throw InputError(unit.empty() ? "the geometry has no unit" : fmt::format("unknown unit \"{}\"", unit),
+                     "[geometry] unit", "give \"m\", \"cm\", \"mm\", \"um\" or \"in\"");
+  return it->second;
+}
+
+Domain import_geometry(const GeometrySource& source, Progress& progress) {
+  const std::string name = source.file.string();
+  metres_per_unit(source.unit);
+  require(std::isfinite(source.tolerance) && source.tolerance > 0, "the tolerance is not a positive number",
+          "[geometry] tolerance", "give a relative error of the volume such as 1e-3");
+  require(std::isfinite(source.mesh_size) && source.mesh_size >= 0,
+          "the mesh size is negative or not a number", "[geometry] mesh_size",
+          "give a length in metres, or 0 for a tenth of the part");
+  const CadFormat format = check_cad_file(source.file);
+  if (format == CadFormat::geo && !source.trust) {
+    const auto finding = forbidden_in_geo(read_text(source.file));
+    require(finding.what.empty(),
+            fmt::format("the .geo file is refused: it holds {}, which may run programs or touch "
+                        "files",
+                        finding.what),
+            fmt::format("{}:{}", name, finding.line), "remove it, or set trust = true if you trust the file");
+  }
+  // STEP lengths come in the file's own unit, all others are plain numbers.
+  const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
+
+  // gmsh also obeys a file of the same name with .opt behind it; under a private name there is none. A
+  // trusted .geo is opened where it lies: it may include its neighbours.
+  const PrivateFolder folder;
+  const fs::path original = fs::absolute(source.file);
+  fs::path opened = original;
+  if (!source.trust || format != CadFormat::geo) {
+    std::string extension = source.file.extension().string();
+    for (char& c : extension)
+      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    opened = folder.path() / ("input" + extension);
+    fs::create_symlink(original, opened);
+  }
+  const fs::path result = folder.path() / "domain";
+  const fs::path program = importer_program();
+  const ChildEnd end = run_child(
+      {program.string(), opened.string(), name, fmt::format("{:.17g}", metres_per_unit(unit)), occ_name(unit),
+       fmt::format("{:.17g}", source.tolerance), fmt::format("{:.17g}", source.mesh_size), result.string()},
+      folder.path(), {source.seconds, source.bytes});
+  check_end(end, source, program);
+
+  Domain domain;
+  try {
+    domain = from_bytes(fs::exists(result) ? read_text(result) : std::string{});
+  } catch (const std::runtime_error& error) {
+    throw InputError(
+        fmt::format("the importer gave no usable answer: {}{}", error.what(), quoted_last_words(end.output)),
+        name, "try again; if it stays, heal the part in a CAD program");
+  }
+  domain.validate(name);
+  note_domain(domain, source, progress);
+  return domain;
+}
+
+} // namespace tessera::preprocess

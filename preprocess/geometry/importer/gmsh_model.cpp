@@ -1,0 +1,271 @@
+#include "preprocess/geometry/importer/gmsh_model.hpp"
+
+#include "core/error.hpp"
+#include "preprocess/geometry/boundary.hpp"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <set>
+
+namespace tessera::importer {
+namespace {
+
+using preprocess::Domain;
+using preprocess::Edge;
+using preprocess::Triangle;
+
+constexpr int line_type = 1, triangle_type = 2, tet_type = 4;
+
+struct Elements {
+  std::vector<std::size_t> tags, nodes;
+};
+
+Elements elements(int type, int entity) {
+  Elements found;
+  gmsh::model::mesh::getElementsByType(type, found.tags, found.nodes, entity);
+  return found;
+}
+
+template <std::size_t N>
+std::array<std::int32_t, N> sorted(std::array<std::int32_t, N> key) {
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+std::vector<int> tags_of(int dimension) {
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  std::vector<int> tags;
+  for (const auto& entity : entities)
+    tags.push_back(entity.second);
+  std::sort(tags.begin(), tags.end());
+  return tags;
+}
+
+} // namespace
+
+Gmsh::Gmsh() {
+  gmsh::initialize(0, nullptr, false);
+  for (const char* threads :
+       {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"})
+    gmsh::option::setNumber(threads, 1);
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.AbortOnError", 0);
+  gmsh::logger::start();
+}
+
+Gmsh::~Gmsh() {
+  gmsh::finalize();
+}
+
+std::string first_complaint() {
+  std::vector<std::string> lines;
+  gmsh::logger::get(lines);
+  gmsh::logger::stop();
+  gmsh::logger::start();
+  constexpr std::string_view prefix = "Error: ";
+  for (const std::string& line : lines)
+    if (line.starts_with(prefix))
+      return line.substr(prefix.size());
+  return {};
+}
+
+void open_file(const std::string& file, const std::string& name) {
+  std::string complaint;
+  try {
+    gmsh::open(file);
+  } catch (const std::string& error) {
+    complaint = error;
+  }
+  if (const std::string logged = first_complaint(); !logged.empty())
+    complaint = logged;
+  // The message names the link we gave gmsh; the user knows the file by its own name, which is there as well.
+  if (const auto at = complaint.find(file); at != std::string::npos)
+    complaint.replace(at, file.size(), "file");
+  require(complaint.empty(), fmt::format("gmsh cannot read the file: {}", complaint), name,
+          "repair or export it again");
+}
+
+void set_sizes(double size, double segments) {
+  const std::pair<const char*, double> options[] = {{"Mesh.MeshSizeMin", 0},
+                                                    {"Mesh.MeshSizeMax", size},
+                                                    {"Mesh.MeshSizeFactor", 1},
+                                                    {"Mesh.MeshSizeFromPoints", 0},
+                                                    {"Mesh.MeshSizeFromCurvature", segments},
+                                                    {"Mesh.MeshSizeExtendFromBoundary", 1},
+                                                    {"Mesh.ElementOrder", 1},
+                                                    {"Mesh.RecombineAll", 0},
+                                                    {"Mesh.SubdivisionAlgorithm", 0},
+                                                    {"Mesh.Algorithm", 6},
+                                                    {"Mesh.RandomSeed", 1},
+                                                    {"Mesh.SaveAll", 0},
+                                                    {"Mesh.SecondOrderIncomplete", 0},
+                                                    {"Mesh.MeshOnlyVisible", 0},
+                                                    {"Mesh.RandomFactor", 1e-9},
+                                                    {"Mesh.RandomFactor3D", 1e-12},
+                                                    {"Mesh.MeshOnlyEmpty", 0}};
+  for (const auto& [option, value] : options)
+    gmsh::option::setNumber(option, value);
+}
+
+void fill_volume(double size) {
+  set_sizes(size, 0);
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+  gmsh::option::setNumber("Mesh.Algorithm3D", 10); // HXT
+  gmsh::option::setNumber("Mesh.Optimize", 0);     // slivers do no harm to clipping
+  gmsh::option::setNumber("Mesh.OptimizeNetgen", 0);
+  gmsh::model::mesh::generate(3);
+}
+
+preprocess::Triangles surface_triangles() {
+  preprocess::Triangles surface;
+  std::vector<std::size_t> nodes;
+  std::vector<double> X, parameters;
+  gmsh::model::mesh::getNodes(nodes, X, parameters);
+  std::unordered_map<std::size_t, std::int32_t> vertex_of_node;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (vertex_of_node.try_emplace(nodes[n], static_cast<std::int32_t>(surface.vertices.size())).second)
+      surface.vertices.emplace_back(X[3 * n], X[3 * n + 1], X[3 * n + 2]);
+  for (const int tag : tags_of(2)) {
+    const auto found = elements(triangle_type, tag);
+    for (std::size_t n = 0; n + 2 < found.nodes.size(); n += 3)
+      surface.triangles.push_back({vertex_of_node.at(found.nodes[n]), vertex_of_node.at(found.nodes[n + 1]),
+                                   vertex_of_node.at(found.nodes[n + 2])});
+  }
+  return surface;
+}
+
+TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces) {
+  TaggedDomain tagged;
+  Domain& domain = tagged.domain;
+  std::vector<std::size_t> nodes;
+  std::vector<double> X, parameters;
+  gmsh::model::mesh::getNodes(nodes, X, parameters);
+  std::map<std::size_t, std::size_t> place; // in order of the nodes' tags, whatever gmsh's own order
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    place.try_emplace(nodes[n], n);
+
+  std::vector<std::size_t> corners;
+  std::set<std::size_t> used;
+  for (const int tag : tags_of(3)) {
+    const auto found = elements(tet_type, tag);
+    corners.insert(corners.end(), found.nodes.begin(), found.nodes.end());
+    used.insert(found.nodes.begin(), found.nodes.end());
+  }
+  for (const auto& [node, n] : place) {
+    if (!used.contains(node))
+      continue;
+    tagged.vertex_of_node[node] = static_cast<std::int32_t>(domain.vertices.size());
+    domain.vertices.emplace_back(X[3 * n], X[3 * n + 1], X[3 * n + 2]);
+  }
+  for (std::size_t c = 0; c + 3 < corners.size(); c += 4) {
+    std::array<std::int32_t, 4> tet;
+    for (int v = 0; v < 4; ++v) {
+      const auto it = tagged.vertex_of_node.find(corners[c + v]);
+      require(it != tagged.vertex_of_node.end(), "a tetrahedron names a node that is not there", name,
+              "repair the mesh");
+      tet[v] = it->second;
+    }
+    domain.tets.push_back(tet);
+    if (domain.tet_volume(domain.tets.size() - 1) < 0)
+      std::swap(domain.tets.back()[2], domain.tets.back()[3]);
+  }
+  domain.facets = preprocess::boundary_of(domain.tets);
+
+  std::map<Triangle, int> tag_of_triangle;
+  for (const int tag : tags_of(2)) {
+    const auto found = elements(triangle_type, tag);
+    for (std::size_t n = 0; n + 2 < found.nodes.size(); n += 3) {
+      Triangle key;
+      bool known = true;
+      for (int v = 0; v < 3; ++v) {
+        const auto it = tagged.vertex_of_node.find(found.nodes[n + v]);
+        known = known && it != tagged.vertex_of_node.end();
+        if (known)
+          key[v] = it->second;
+      }
+      if (known)
+        tag_of_triangle.try_emplace(sorted(key), tag);
+    }
+  }
+  std::vector<int> tags(domain.facets.size(), -1);
+  for (std::size_t f = 0; f < tags.size(); ++f) {
+    const auto it = tag_of_triangle.find(sorted(domain.facets[f].vertices));
+    if (it != tag_of_triangle.end())
+      tags[f] = it->second;
+    require(it != tag_of_triangle.end() || !need_surfaces,
+            "a boundary face of the volume mesh lies on no surface", name,
+            "repair the body: its surfaces may intersect");
+  }
+  const std::set<int> bounding(tags.begin(), tags.end());
+  std::map<int, std::int32_t> index;
+  for (const int tag : bounding)
+    if (tag >= 0) {
+      index[tag] = static_cast<std::int32_t>(domain.surfaces.size());
+      domain.surfaces.push_back(fmt::format("face{}", tag));
+      tagged.surface_tags.push_back(tag);
+    }
+  for (std::size_t f = 0; f < tags.size(); ++f)
+    if (tags[f] >= 0)
+      domain.facets[f].surface = index.at(tags[f]);
+  return tagged;
+}
+
+void read_curves(TaggedDomain& tagged) {
+  std::map<Edge, int> tag_of_edge;
+  for (const int tag : tags_of(1)) {
+    const auto found = elements(line_type, tag);
+    for (std::size_t n = 0; n + 1 < found.nodes.size(); n += 2) {
+      const auto a = tagged.vertex_of_node.find(found.nodes[n]),
+                 b = tagged.vertex_of_node.find(found.nodes[n + 1]);
+      if (a != tagged.vertex_of_node.end() && b != tagged.vertex_of_node.end())
+        tag_of_edge.try_emplace(sorted(Edge{a->second, b->second}), tag);
+    }
+  }
+  std::set<int> features;
+  for (const auto& edge : tagged.domain.feature_edges)
+    if (const auto it = tag_of_edge.find(edge.vertices); it != tag_of_edge.end())
+      features.insert(it->second);
+  for (const int tag : features)
+    tagged.curve_index.try_emplace(tag, static_cast<std::int32_t>(tagged.curve_index.size()));
+  for (auto& edge : tagged.domain.feature_edges)
+    if (const auto it = tag_of_edge.find(edge.vertices); it != tag_of_edge.end())
+      edge.curve = tagged.curve_index.at(it->second);
+}
+
+void read_groups(TaggedDomain& tagged) {
+  gmsh::vectorpair physicals;
+  gmsh::model::getPhysicalGroups(physicals);
+  for (const auto& [dimension, physical] : physicals) {
+    Domain::Group group;
+    group.dimension = dimension;
+    gmsh::model::getPhysicalName(dimension, physical, group.name);
+    if (group.name.empty())
+      group.name = fmt::format("physical{}", physical);
+    std::vector<int> entities;
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
+    std::sort(entities.begin(), entities.end());
+    for (const int tag : entities) {
+      if (dimension == 2) {
+        const auto it = std::find(tagged.surface_tags.begin(), tagged.surface_tags.end(), tag);
+        if (it != tagged.surface_tags.end())
+          group.surfaces.push_back(static_cast<std::int32_t>(it - tagged.surface_tags.begin()));
+      } else if (dimension == 1) {
+        if (const auto it = tagged.curve_index.find(tag); it != tagged.curve_index.end())
+          group.curves.push_back(it->second);
+      } else if (dimension == 0) {
+        std::vector<std::size_t> nodes;
+        std::vector<double> X, parameters;
+        gmsh::model::mesh::getNodes(nodes, X, parameters, 0, tag);
+        for (const std::size_t node : nodes)
+          if (const auto it = tagged.vertex_of_node.find(node); it != tagged.vertex_of_node.end())
+            group.vertices.push_back(it->second);
+      }
+    }
+    tagged.domain.groups.push_back(std::move(group));
+  }
+}
+
+} // namespace tessera::importer

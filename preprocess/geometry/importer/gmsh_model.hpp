@@ -1,0 +1,58 @@
+/// gmsh's current model in the words of Domain.
+#pragma once
+
+#include "preprocess/geometry/domain.hpp"
+#include "preprocess/geometry/triangles.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace tessera::importer {
+
+/// Starts gmsh with one thread, no configuration files and fixed seeds: same file, same bits.
+class Gmsh {
+ public:
+  Gmsh();
+  ~Gmsh();
+  Gmsh(const Gmsh&) = delete;
+  Gmsh& operator=(const Gmsh&) = delete;
+};
+
+/// Opens a file; InputError with gmsh's own first complaint when it has any.
+void open_file(const std::string& file, const std::string& name);
+
+/// First error gmsh has logged since it was last asked, without its prefix; empty when there was none.
+std::string first_complaint();
+
+/// Largest mesh edges: `size` everywhere, and `segments` edges a full turn on curved surfaces.
+void set_sizes(double size, double segments);
+
+/// Meshes the volume between the surface triangles that are there, coarse inside.
+void fill_volume(double size);
+
+/// Triangles of the model's surfaces (or of those listed), with their nodes' coordinates.
+preprocess::Triangles surface_triangles();
+
+/// Vertices, positive tetrahedra and their boundary, with gmsh's tags beside them.
+struct TaggedDomain {
+  preprocess::Domain domain;
+  std::unordered_map<std::size_t, std::int32_t> vertex_of_node;
+  std::vector<int> surface_tags;           ///< gmsh tag of each of domain.surfaces
+  std::map<int, std::int32_t> curve_index; ///< Domain curve of each gmsh curve that is a feature
+};
+
+/// Reads nodes and tetrahedra. Facets get the surface whose triangle they are; the surfaces are those that
+/// bound the body, in the order of their tags, named face1, face2... by tag. `need_surfaces`: InputError when
+/// a facet has none (else its surface stays -1).
+TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces);
+
+/// Curves of the feature edges from gmsh's line elements, numbered by tag.
+void read_curves(TaggedDomain& tagged);
+
+/// Physical groups of volumes, surfaces, curves and points.
+void read_groups(TaggedDomain& tagged);
+
+} // namespace tessera::importer
