@@ -103,7 +103,7 @@ preprocess::SetSelector read_set(Table set, const std::vector<preprocess::SetSel
 
 solver::MaterialSpec read_material(Table material) {
   solver::MaterialSpec spec;
-  spec.law = material.choice("law", {"hencky"});
+  spec.law = material.text("law");
   spec.density = material.number("density");
   spec.young = material.number("young");
   spec.poisson = material.number("poisson");
@@ -116,11 +116,11 @@ solver::MaterialSpec read_material(Table material) {
 }
 
 void read_solver(Table solver, solver::SceneSpec& scene) {
-  scene.formulation = solver.choice_or("formulation", scene.formulation, {"auto", "pF"});
-  scene.scheme = solver.choice_or("scheme", scene.scheme, {"thesis"});
-  scene.kernel = solver.choice_or("kernel", scene.kernel, {"wendland"});
+  scene.formulation = solver.text_or("formulation", scene.formulation);
+  scene.scheme = solver.text_or("scheme", scene.scheme);
+  scene.kernel = solver.text_or("kernel", scene.kernel);
   scene.support = solver.optional_number("support");
-  scene.neighbours = static_cast<int>(solver.integer_or("neighbours", scene.neighbours, 4, 1000));
+  scene.neighbours = static_cast<int>(solver.integer_or("neighbours", scene.neighbours, 1, 1000));
   scene.jst4 = solver.number_or("jst4", scene.jst4);
   scene.cfl = solver.number_or("cfl", scene.cfl);
   scene.momentum_projection = solver.boolean_or("momentum_projection", scene.momentum_projection);
@@ -144,7 +144,8 @@ solver::Expression parse_formula(const Table& initial, std::size_t component, co
   try {
     return solver::Expression(formula);
   } catch (const InputError& e) {
-    initial.refuse(fmt::format("velocity.{}", component), e.what(),
+    initial.refuse(fmt::format("velocity.{}", component),
+                   fmt::format("{}: {}", initial.path_of("velocity"), e.what()),
                    "a formula may use X, Y, Z (metres), _pi, _e and functions such as sin, sqrt");
   }
 }
@@ -197,17 +198,13 @@ solver::PlaneWall read_wall(Table table) {
   return wall;
 }
 
-solver::Probe read_probe(Table table, const std::vector<solver::Probe>& earlier) {
+solver::Probe read_probe(Table table) {
   solver::Probe probe;
   probe.name = table.name("name");
-  probe.quantity = table.choice("quantity", {"x", "y", "z", "radius", "ux", "uy", "uz", "vx", "vy", "vz",
-                                             "plastic_strain", "von_mises", "pressure"});
-  probe.reduce = table.choice("reduce", {"max", "min", "mean", "extent"});
+  probe.quantity = table.text("quantity");
+  probe.reduce = table.text("reduce");
   probe.on = table.text_or("on", probe.on);
   table.finish();
-  for (const auto& other : earlier)
-    if (other.name == probe.name)
-      table.refuse("name", fmt::format("two probes are called '{}'", probe.name), "give each its own name");
   return probe;
 }
 
@@ -308,7 +305,7 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
     const std::vector<Table> probes = output->tables("probe"), pictures = output->tables("picture");
     output->finish();
     for (const Table& entry : probes)
-      scene.probes.push_back(read_probe(entry, scene.probes));
+      scene.probes.push_back(read_probe(entry));
     for (const Table& entry : pictures)
       result.pictures.push_back(read_picture(entry, result.pictures));
   }

@@ -1,0 +1,167 @@
+#include "core/error.hpp"
+#include "tests/unit/app/case_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace tessera::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Case, EveryStatedValueArrives) {
+  const Case c = read_text_case(complete_case);
+  EXPECT_EQ(c.title, "a bar");
+  EXPECT_EQ(c.geometry.unit, "mm");
+  EXPECT_EQ(c.particles.arrangement, preprocess::Arrangement::lattice);
+  EXPECT_EQ(c.particles.spacing, 0.001);
+  EXPECT_EQ(c.scene.material.density, 8930);
+  EXPECT_EQ(c.scene.material.young, 117e9);
+  EXPECT_EQ(c.scene.material.poisson, 0.35);
+  EXPECT_FALSE(c.scene.material.plasticity.has_value());
+  EXPECT_EQ(c.scene.end_time, 80e-6);
+  ASSERT_EQ(c.scene.initial.size(), 1U);
+  EXPECT_EQ(c.scene.initial[0].on, "all");
+  EXPECT_EQ(c.scene.initial[0].velocity[1](Vec3(0, 0, 3)), 5);
+  EXPECT_EQ(c.scene.initial[0].velocity[2](Vec3(0, 0, 3)), -227);
+  ASSERT_EQ(c.scene.fixed.size(), 1U);
+  EXPECT_EQ(c.scene.fixed[0].component, (std::array{true, true, true}));
+  ASSERT_EQ(c.scene.walls.size(), 1U);
+  EXPECT_EQ(c.scene.walls[0].normal, Vec3::UnitZ());
+  ASSERT_EQ(c.particles.sets.size(), 1U);
+  EXPECT_EQ(c.scene.frames, 4);
+  ASSERT_EQ(c.scene.probes.size(), 1U);
+  EXPECT_EQ(c.scene.probes[0].reduce, "extent");
+  ASSERT_EQ(c.pictures.size(), 1U);
+  EXPECT_EQ(c.pictures[0].frame, "last");
+}
+
+TEST(Case, OptionalPartsArrive) {
+  const Case c =
+      read_text_case(with("poisson = 0.35", "poisson = 0.35\nplasticity = {yield = 4e8, hardening = 1e8}"),
+                     {"geometry.tolerance=1e-4", "particles.seed=7", "solver.support=2.2", "solver.cfl=0.2",
+                      "solver.momentum_projection=false", "wall.0.restitution=0.5"});
+  ASSERT_TRUE(c.scene.material.plasticity.has_value());
+  EXPECT_EQ(c.scene.material.plasticity->yield, 4e8);
+  EXPECT_EQ(c.scene.material.plasticity->hardening, 1e8);
+  EXPECT_EQ(c.geometry.tolerance, 1e-4);
+  EXPECT_EQ(c.particles.seed, 7U);
+  EXPECT_EQ(c.scene.support, 2.2);
+  EXPECT_EQ(c.scene.cfl, 0.2);
+  EXPECT_FALSE(c.scene.momentum_projection);
+  EXPECT_EQ(c.scene.walls[0].restitution, 0.5);
+}
+
+TEST(Case, SelectorsOfSets) {
+  const Case c =
+      read_text_case(complete_case + "[[set]]\nname = \"b\"\nbox = {lower = [0, 0, 0], upper = [1, 2, 3]}\n"
+                                     "[[set]]\nname = \"n\"\nnearest = [1, 2, 3]\ntolerance = 0.5\n");
+  ASSERT_EQ(c.particles.sets.size(), 3U);
+  EXPECT_EQ(std::get<preprocess::BoxSelector>(c.particles.sets[1].where).upper, Vec3(1, 2, 3));
+  EXPECT_EQ(std::get<preprocess::NearestSelector>(c.particles.sets[2].where).point, Vec3(1, 2, 3));
+  EXPECT_EQ(c.particles.sets[2].tolerance, 0.5);
+}
+
+TEST(Case, SpinIsAngularVelocityTimesArm) {
+  const Case c = read_text_case(
+      with("velocity = [0, \"10*Z/6\", -227]", "spin = {omega = [1, -2, 105], centre = [0.5, -0.25, 1e-3]}"));
+  const Vec3 omega(1, -2, 105), centre(0.5, -0.25, 1e-3), X(0.3, 7, -1);
+  const Vec3 expected = omega.cross(X - centre);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(c.scene.initial[0].velocity[static_cast<std::size_t>(i)](X), expected[i],
+                1e-12 * expected.norm());
+}
+
+TEST(Case, FixedComponents) {
+  const Case c = read_text_case(with("type = \"clamped\"", "type = \"fixed\"\ncomponents = [\"x\", \"z\"]"));
+  EXPECT_EQ(c.scene.fixed[0].component, (std::array{true, false, true}));
+}
+
+TEST(Case, GeometryIsRelativeToTheCaseAndMadeAbsolute) {
+  const TemporaryFolder folder;
+  const Case c = read_case(folder.file("case.toml", complete_case), {});
+  EXPECT_EQ(c.geometry.file, fs::weakly_canonical(folder.path() / "bar.step"));
+  EXPECT_NE(c.text.find(c.geometry.file.string()), std::string::npos);
+}
+
+TEST(Case, GeometryTypedOnTheCommandLineIsRelativeToWhereItWasTyped) {
+  const Case c = read_text_case(complete_case, {"geometry.file=typed.step"});
+  EXPECT_EQ(c.geometry.file, fs::weakly_canonical(fs::current_path() / "typed.step"));
+}
+
+TEST(Case, StoredTextReadsBackAsTheSameCase) {
+  const TemporaryFolder folder;
+  const Case c =
+      read_case(folder.file("case.toml", complete_case), {"particles.count=500", "solver.jst4=0.1"});
+  const Case again = read_case(folder.file("stored.toml", c.text), {});
+  EXPECT_EQ(again.text, c.text);
+  EXPECT_EQ(again.particles.count, 500);
+  EXPECT_EQ(again.scene.jst4, 0.1);
+  EXPECT_EQ(again.geometry.file, c.geometry.file);
+  EXPECT_EQ(again.scene.end_time, c.scene.end_time);
+}
+
+TEST(Case, CloudTextIsWhatTheParticlesDependOn) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("case.toml", complete_case);
+  const std::string cloud = read_case(file, {}).cloud_text;
+  EXPECT_EQ(read_case(file, {"solver.cfl=0.1", "material.young=1e9"}).cloud_text, cloud);
+  EXPECT_NE(read_case(file, {"particles.seed=2"}).cloud_text, cloud);
+  EXPECT_NE(read_case(file, {"set.0.tolerance=1e-5"}).cloud_text, cloud);
+  EXPECT_NE(read_case(file, {"geometry.tolerance=1e-5"}).cloud_text, cloud);
+}
+
+TEST(Case, NamesItselfAfterFolderAndFile) {
+  const TemporaryFolder folder;
+  const std::string name = folder.path().filename().string();
+  EXPECT_EQ(read_case(folder.file("case.toml", complete_case), {}).name, name);
+  EXPECT_EQ(read_case(folder.path(), {}).name, name) << "a folder stands for its case.toml";
+  EXPECT_EQ(read_case(folder.file("voronoi.toml", complete_case), {}).name, name + "-voronoi");
+}
+
+TEST(Case, ThoseOfTheProjectAreValid) {
+  int cases = 0;
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(fs::path(TESSERA_SOURCE_DIR) / "geometries"))
+    if (entry.path().extension() == ".toml") {
+      ++cases;
+      EXPECT_NO_THROW(read_case(entry.path(), {})) << entry.path();
+    }
+  EXPECT_GE(cases, 4);
+}
+
+TEST(Overrides, WordsNeedNoQuotes) {
+  const Case c = read_text_case(complete_case, {"particles.arrangement=voronoi", "title=two words",
+                                                "set.0.name=\"q\"", "boundary.0.on=q"});
+  EXPECT_EQ(c.particles.arrangement, preprocess::Arrangement::voronoi);
+  EXPECT_EQ(c.title, "two words");
+  EXPECT_EQ(c.particles.sets[0].name, "q");
+}
+
+TEST(Overrides, MakeTablesAndEntriesThatAreNotThere) {
+  const Case c =
+      read_text_case(complete_case, {"material.plasticity.yield=4e8", "material.plasticity.hardening=0",
+                                     "initial.0.velocity=[1,2,\"X\"]", "wall.1.plane.point=[0,0,1]",
+                                     "wall.1.plane.normal=[0,0,-1]"});
+  EXPECT_EQ(c.scene.material.plasticity->yield, 4e8);
+  EXPECT_EQ(c.scene.initial[0].velocity[2](Vec3(5, 0, 0)), 5);
+  ASSERT_EQ(c.scene.walls.size(), 2U);
+  EXPECT_EQ(c.scene.walls[1].normal, Vec3(0, 0, -1));
+}
+
+TEST(Overrides, LaterOnesWin) {
+  EXPECT_EQ(read_text_case(complete_case, {"solver.cfl=0.1", "solver.cfl=0.2"}).scene.cfl, 0.2);
+}
+
+TEST(Overrides, CountReplacesTheFilesSpacing) {
+  const Case c = read_text_case(complete_case, {"particles.count=500"});
+  EXPECT_EQ(c.particles.count, 500);
+  EXPECT_EQ(c.particles.spacing, 0);
+  EXPECT_NE(
+      message(complete_case, {"particles.count=500", "particles.spacing=0.1"}).find("both spacing and count"),
+      std::string::npos);
+}
+
+} // namespace
+} // namespace tessera::app
