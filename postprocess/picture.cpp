@@ -1,0 +1,92 @@
+#include "postprocess/picture.hpp"
+
+#include "core/error.hpp"
+#include "io/series.hpp"
+#include "postprocess/quantity.hpp"
+#include "postprocess/render_job.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace tessera::post {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The frame a picture asks for: the last, the first, or the one nearest to a time.
+const io::StoredFrame& chosen(const std::vector<io::StoredFrame>& frames, const std::string& which) {
+  if (which == "last")
+    return frames.back();
+  if (which == "first")
+    return frames.front();
+  double time = 0;
+  const char* end = which.data() + which.size();
+  const auto [stop, error] = std::from_chars(which.data(), end, time);
+  require(error == std::errc() && stop == end, fmt::format("'{}' names no frame", which), "",
+          "last, first or a time in seconds do");
+  const io::StoredFrame* nearest = &frames.front();
+  for (const io::StoredFrame& frame : frames)
+    if (std::abs(frame.time - time) < std::abs(nearest->time - time))
+      nearest = &frame;
+  return *nearest;
+}
+
+std::string title_of(const Picture& picture) {
+  const std::string label = field_quantity(picture.field).label;
+  return picture.clip.empty() ? label : label + ", cut in the middle";
+}
+
+Drawing drawing_of(const Picture& picture, const std::vector<std::vector<io::StoredFrame>>& series,
+                   const std::vector<std::string>& labels, const fs::path& output) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Drawing drawing;
+  drawing.file = fs::absolute(output / (picture.name + ".png")).string();
+  drawing.title = title_of(picture);
+  drawing.field = picture.field;
+  drawing.view = picture.view;
+  drawing.minimum = picture.minimum.value_or(none);
+  drawing.maximum = picture.maximum.value_or(none);
+  drawing.outline = picture.outline;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const io::StoredFrame& frame = chosen(series[i], picture.frame);
+    drawing.panels.push_back(
+        {fs::absolute(frame.file).string(), i < labels.size() ? labels[i] : "", frame.time, 0, picture.clip});
+  }
+  return drawing;
+}
+
+} // namespace
+
+std::vector<fs::path> draw(const std::vector<Picture>& pictures, const std::vector<fs::path>& folders,
+                           const std::vector<std::string>& labels, const fs::path& output,
+                           Progress& progress) {
+  RenderJob job;
+  try {
+    std::vector<std::vector<io::StoredFrame>> series;
+    for (const fs::path& folder : folders)
+      series.push_back(io::read_series(folder));
+    for (const Picture& picture : pictures)
+      job.drawings.push_back(drawing_of(picture, series, labels, output));
+  } catch (const Error& error) {
+    progress.note(fmt::format("no pictures: {}", error.what()));
+    return {};
+  }
+  return render(job, progress);
+}
+
+std::vector<fs::path> draw_cloud(const fs::path& folder, Progress& progress) {
+  constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
+  const std::string file = fs::absolute(folder / "cloud.vtp").string();
+  Drawing drawing;
+  drawing.file = fs::absolute(folder / "cloud.png").string();
+  drawing.title = "Particles by subvolume";
+  drawing.field = "volume";
+  drawing.view = "iso";
+  drawing.panels = {{file, "whole", no_time, 0, ""}, {file, "near half left out", no_time, 0, "y"}};
+  return render({{drawing}, {}}, progress);
+}
+
+} // namespace tessera::post

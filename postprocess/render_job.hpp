@@ -1,0 +1,72 @@
+/// What tessera-render is asked to draw: the one contract between the library (no VTK rendering) and that
+/// program.
+///
+/// VTK's off-screen pictures need an X server and abort the process without one, so drawing happens in a
+/// child under xvfb-run, all pictures of one call in one child.
+#pragma once
+
+#include "core/progress.hpp"
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tessera::post {
+
+/// One body in a drawing.
+struct Panel {
+  std::string file;   ///< .vtu frame or .vtp cloud
+  std::string label;  ///< below it; may be empty
+  double time = 0;    ///< s; NaN: not shown
+  double spacing = 0; ///< of the particles, m; 0: found from the points
+  std::string clip;   ///< "", "x", "y", "z"
+};
+
+/// Particles coloured by a field, panels side by side on one colour scale and one length scale.
+struct Drawing {
+  std::string file; ///< PNG to write
+  std::string title;
+  std::string field; ///< point array, or "array.component"
+  std::string view = "front";
+  double minimum = std::numeric_limits<double>::quiet_NaN(); ///< SI; NaN: over all panels
+  double maximum = std::numeric_limits<double>::quiet_NaN();
+  bool outline = false;
+  std::vector<Panel> panels;
+};
+
+/// One curve, or points where `dots`.
+struct Curve {
+  std::string label;
+  std::vector<double> x, y;
+  bool dots = false;
+  bool dashed = false;
+};
+
+struct Chart {
+  std::string title, x_title, y_title;
+  bool log_x = false, log_y = false;
+  std::vector<Curve> curves;
+};
+
+/// Charts above each other in one picture.
+struct Plot {
+  std::string file; ///< PNG to write
+  std::vector<Chart> charts;
+};
+
+struct RenderJob {
+  std::vector<Drawing> drawings;
+  std::vector<Plot> plots;
+};
+
+/// Draws everything and returns the files that were written. What could not be drawn, and why, is a note on
+/// `progress`; only an interruption throws.
+std::vector<std::filesystem::path> render(const RenderJob& job, Progress& progress);
+
+/// As JSON text and back (InputError when the text is not a job).
+std::string to_json(const RenderJob& job);
+RenderJob render_job_from_json(const std::string& text);
+
+} // namespace tessera::post

@@ -1,0 +1,113 @@
+#include "core/error.hpp"
+#include "postprocess/render_job.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace tessera::post {
+namespace {
+
+using nlohmann::json;
+
+/// JSON has no NaN: null stands for it.
+double number(const json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+std::vector<double> numbers(const json& values) {
+  std::vector<double> out;
+  for (const json& value : values)
+    out.push_back(number(value));
+  return out;
+}
+
+json of(const Panel& panel) {
+  return {{"file", panel.file},
+          {"label", panel.label},
+          {"time", panel.time},
+          {"spacing", panel.spacing},
+          {"clip", panel.clip}};
+}
+
+json of(const Drawing& drawing) {
+  json panels = json::array();
+  for (const Panel& panel : drawing.panels)
+    panels.push_back(of(panel));
+  return {{"file", drawing.file},       {"title", drawing.title},
+          {"field", drawing.field},     {"view", drawing.view},
+          {"minimum", drawing.minimum}, {"maximum", drawing.maximum},
+          {"outline", drawing.outline}, {"panels", panels}};
+}
+
+json of(const Chart& chart) {
+  json curves = json::array();
+  for (const Curve& curve : chart.curves)
+    curves.push_back({{"label", curve.label},
+                      {"x", curve.x},
+                      {"y", curve.y},
+                      {"dots", curve.dots},
+                      {"dashed", curve.dashed}});
+  return {{"title", chart.title}, {"x_title", chart.x_title}, {"y_title", chart.y_title},
+          {"log_x", chart.log_x}, {"log_y", chart.log_y},     {"curves", curves}};
+}
+
+Drawing drawing_of(const json& value) {
+  Drawing drawing{value.at("file"),
+                  value.at("title"),
+                  value.at("field"),
+                  value.at("view"),
+                  number(value.at("minimum")),
+                  number(value.at("maximum")),
+                  value.at("outline"),
+                  {}};
+  for (const json& panel : value.at("panels"))
+    drawing.panels.push_back({panel.at("file"), panel.at("label"), number(panel.at("time")),
+                              panel.at("spacing"), panel.at("clip")});
+  return drawing;
+}
+
+Chart chart_of(const json& value) {
+  Chart chart{value.at("title"), value.at("x_title"), value.at("y_title"),
+              value.at("log_x"), value.at("log_y"),   {}};
+  for (const json& curve : value.at("curves"))
+    chart.curves.push_back({curve.at("label"), numbers(curve.at("x")), numbers(curve.at("y")),
+                            curve.at("dots"), curve.at("dashed")});
+  return chart;
+}
+
+} // namespace
+
+std::string to_json(const RenderJob& job) {
+  json drawings = json::array(), plots = json::array();
+  for (const Drawing& drawing : job.drawings)
+    drawings.push_back(of(drawing));
+  for (const Plot& plot : job.plots) {
+    json charts = json::array();
+    for (const Chart& chart : plot.charts)
+      charts.push_back(of(chart));
+    plots.push_back({{"file", plot.file}, {"charts", charts}});
+  }
+  // Labels come from folder names, which need not be UTF-8.
+  return json{{"drawings", drawings}, {"plots", plots}}.dump(1, ' ', false, json::error_handler_t::replace);
+}
+
+RenderJob render_job_from_json(const std::string& text) {
+  RenderJob job;
+  try {
+    const json root = json::parse(text);
+    for (const json& drawing : root.at("drawings"))
+      job.drawings.push_back(drawing_of(drawing));
+    for (const json& value : root.at("plots")) {
+      Plot plot{value.at("file"), {}};
+      for (const json& chart : value.at("charts"))
+        plot.charts.push_back(chart_of(chart));
+      job.plots.push_back(std::move(plot));
+    }
+  } catch (const json::exception& error) {
+    throw InputError(std::string("not a list of pictures: ") + error.what(), "", "");
+  }
+  return job;
+}
+
+} // namespace tessera::post
