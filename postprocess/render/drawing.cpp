@@ -29,11 +29,11 @@ namespace {
 
 using Direction = Eigen::Vector3f;
 
-constexpr double radius_over_spacing =
-    0.56; ///< a little above one half closes the gaps between lattice spheres
+/// Half the diagonal of a lattice cell's face: nothing shines through between the spheres.
+constexpr double radius_over_spacing = 0.71;
 
 // Pixels of the layout, from the outside inwards.
-constexpr double margin = 40, title_height = 90, caption_height = 150, bar_column = 250, gap = 30;
+constexpr double margin = 40, title_height = 90, caption_height = 180, bar_column = 260, gap = 30;
 constexpr double wanted_height = 900; ///< of a body's part of the picture
 constexpr double widest = 2600;       ///< of all bodies together
 constexpr double least_width = 420, least_height = 300;
@@ -157,7 +157,7 @@ vtkSmartPointer<vtkActor> spheres(const Body& body, const ColourScale& scale, do
                   "float light = max(0.0, dot(outwards, vec3(-0.30, 0.40, 0.866)));\n"
                   "float shine = 0.16 * pow(light, 24.0);\n"
                   "ambientColor = vec3(0.0);\n"
-                  "diffuseColor = (0.45 + 0.58 * light) * diffuseColor + vec3(shine);\n"
+                  "diffuseColor = (0.50 + 0.53 * light) * diffuseColor + vec3(shine);\n"
                   "gl_FragDepth = gl_FragCoord.z - {:.9f} * height;\n",
                   radius / depth)
           .c_str());
@@ -213,16 +213,16 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
     canvas.line({left + thickness, y}, {left + thickness + 8, y}, {80, 80, 80}, 2);
     canvas.text({left + thickness + 16, y}, figure(tick));
   }
-  canvas.text({left + 170, (low + high) / 2}, titled(quantity.label, unit.name),
+  canvas.text({left + 155, (low + high) / 2}, titled(quantity.label, unit.name),
               {.size = 28, .anchor = Anchor::centre, .upwards = true});
-  const auto extreme = [&](double value) { return figure(value * unit.factor); };
+  const auto extreme = [&](double value) { return fmt::format("{:.3g}", value * unit.factor); };
   canvas.text({left, low - 40}, fmt::format("from {} to {}", extreme(range.low), extreme(range.high)),
-              {.size = 21, .width = canvas.width() - left - 10});
+              {.size = 21, .width = bar_column - 20});
 }
 
 /// Short arrows of the coordinate axes.
 void draw_axes(Canvas& canvas, const View& view, Pixel at) {
-  constexpr double length = 46;
+  constexpr double length = 42;
   const char* names[] = {"x", "y", "z"};
   const Colour colours[] = {{200, 40, 40}, {30, 140, 60}, {40, 80, 200}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -234,6 +234,27 @@ void draw_axes(Canvas& canvas, const View& view, Pixel at) {
     canvas.text({tip.x + 16 * right / shown, tip.y + 16 * up / shown}, names[axis],
                 {.size = 22, .anchor = Anchor::centre});
   }
+}
+
+/// A bar of round length, with that length beside it.
+void draw_length(Canvas& canvas, double metres_per_pixel, Pixel at) {
+  const double length = round_length(130 * metres_per_pixel);
+  const double pixels = length / metres_per_pixel;
+  canvas.line(at, {at.x + pixels, at.y}, {40, 40, 40}, 5);
+  canvas.text({at.x + pixels + 14, at.y}, with_unit(length, "m"), {.size = 22});
+}
+
+/// "13.4 × 13.4 × 21.5 mm": what the particles' centres span along x, y and z.
+std::string size_of(const Body& body) {
+  Eigen::AlignedBox3f box;
+  for (const Point& p : body.points)
+    box.extend(p);
+  const Eigen::Vector3d span = box.sizes().cast<double>();
+  const Unit unit = readable_unit("m", span.maxCoeff());
+  std::string text = fmt::format("{} × {}", figure(span.x() * unit.factor), figure(span.y() * unit.factor));
+  if (!body.plane)
+    text += " × " + figure(span.z() * unit.factor);
+  return fmt::format("{} {}", text, unit.name);
 }
 
 struct Layout {
@@ -275,7 +296,9 @@ void draw_particles(const Drawing& drawing) {
   const View view = view_of(plane ? "top" : drawing.view);
 
   std::vector<Eigen::AlignedBox3f> extents;
+  std::vector<std::string> sizes;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
+    sizes.push_back(size_of(bodies[i]));
     const std::string& clip = drawing.panels[i].clip;
     if (!clip.empty() && !plane)
       keep_far_half(bodies[i], clip, view.into);
@@ -317,21 +340,15 @@ void draw_particles(const Drawing& drawing) {
     const double centre = left + layout.panel_width / 2;
     const TextStyle caption{.size = 28, .anchor = Anchor::centre, .width = layout.panel_width};
     canvas.text({centre, caption_height - 40}, caption_of(drawing.panels[i]), caption);
-    const Unit unit = readable_unit("m", static_cast<double>(box.sizes().maxCoeff()));
-    canvas.text({centre, caption_height - 80},
-                fmt::format("{} {} wide, {} {} high",
-                            figure(static_cast<double>(box.sizes().x()) * unit.factor), unit.name,
-                            figure(static_cast<double>(box.sizes().y()) * unit.factor), unit.name),
+    canvas.text({centre, caption_height - 80}, sizes[i],
                 {.size = 22, .anchor = Anchor::centre, .width = layout.panel_width});
   }
   canvas.text({canvas.width() / 2.0, canvas.height() - title_height / 2}, drawing.title,
               {.size = 34, .anchor = Anchor::centre, .bold = true, .width = canvas.width() - 2 * margin});
   draw_bar(canvas, scale, quantity, range, canvas.width() - bar_column);
-  draw_axes(canvas, view, {margin + 30, 40});
-  const double length = round_length(160 * layout.metres_per_pixel);
-  const double pixels = length / layout.metres_per_pixel, bar_left = canvas.width() - bar_column;
-  canvas.line({bar_left, 34}, {bar_left + pixels, 34}, {40, 40, 40}, 5);
-  canvas.text({bar_left + pixels / 2, 58}, with_unit(length, "m"), {.size = 22, .anchor = Anchor::centre});
+  const double column = canvas.width() - bar_column;
+  draw_length(canvas, layout.metres_per_pixel, {column, caption_height - 36});
+  draw_axes(canvas, view, {column + 70, 54});
   canvas.save(drawing.file);
 }
 

@@ -9,9 +9,9 @@ namespace {
 
 /// Equal steps look equal and lightness grows throughout, so it survives grey printing: dark violet to
 /// yellow.
-constexpr std::array<Colour, 9> one_sided{{{68, 1, 84},
-                                           {71, 45, 123},
-                                           {59, 82, 139},
+constexpr std::array<Colour, 9> one_sided{{{74, 32, 108},
+                                           {74, 58, 136},
+                                           {64, 92, 148},
                                            {44, 114, 142},
                                            {33, 145, 140},
                                            {40, 174, 128},

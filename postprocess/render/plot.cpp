@@ -1,9 +1,9 @@
 #include "postprocess/render/plot.hpp"
 
 #include "postprocess/render/canvas.hpp"
+#include "postprocess/render/ticks.hpp"
 
 #include <vtkAxis.h>
-#include <vtkChartLegend.h>
 #include <vtkChartXY.h>
 #include <vtkContextActor.h>
 #include <vtkContextScene.h>
@@ -11,27 +11,73 @@
 #include <vtkPen.h>
 #include <vtkPlot.h>
 #include <vtkPlotPoints.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera::post {
 namespace {
 
-constexpr int chart_width = 1500, chart_height = 850;
+constexpr int width = 1600, chart_height = 800, legend_width = 330;
 
-void style_axis(vtkAxis& axis, const std::string& title, bool logarithmic) {
+void style_axis(vtkAxis& axis, const std::string& title) {
   axis.SetTitle(title);
   axis.GetTitleProperties()->SetFontSize(28);
   axis.GetTitleProperties()->BoldOff();
   axis.GetLabelProperties()->SetFontSize(24);
   axis.GetGridPen()->SetColor(225, 225, 225);
   axis.GetPen()->SetWidth(2);
-  axis.SetLogScale(logarithmic);
+}
+
+bool shown(double value, bool logarithmic) {
+  return std::isfinite(value) && (!logarithmic || value > 0);
+}
+
+/// Fits the axis to what is shown of the curves, with round numbers beside it.
+void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
+  const bool logarithmic = horizontal ? chart.log_x : chart.log_y;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Curve& curve : chart.curves)
+    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+      if (!shown(curve.x[i], chart.log_x) || !shown(curve.y[i], chart.log_y))
+        continue;
+      const double value = horizontal ? curve.x[i] : curve.y[i];
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  if (low > high)
+    return;
+  axis.SetBehavior(vtkAxis::FIXED);
+  if (logarithmic) {
+    axis.SetLogScale(true);
+    axis.SetRange(low / 1.5, high * 1.5);
+    return;
+  }
+  if (high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)) || high == low) { // constant
+    const double half = low == 0 ? 1 : 0.1 * std::abs(low);
+    low -= half;
+    high += half;
+  } else if (!horizontal ||
+             std::any_of(chart.curves.begin(), chart.curves.end(), [](const Curve& c) { return c.dots; })) {
+    const double air = 0.05 * (high - low);
+    low = low >= 0 && low < air ? 0 : low - air;
+    high += air;
+  }
+  axis.SetRange(low, high);
+  const vtkNew<vtkDoubleArray> places;
+  const vtkNew<vtkStringArray> labels;
+  for (const double tick : round_ticks(low, high, 7)) {
+    places->InsertNextValue(tick);
+    labels->InsertNextValue(fmt::format("{:.6g}", std::abs(tick) < 1e-9 * (high - low) ? 0.0 : tick));
+  }
+  axis.SetCustomTickPositions(places, labels);
 }
 
 /// The points that can be shown: finite, and positive on logarithmic axes.
@@ -67,33 +113,52 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
     points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
 }
 
+/// Names of the curves to the right of the chart, where they hide nothing.
+void draw_legend(Canvas& canvas, const Chart& chart, double top) {
+  const double left = width - legend_width + 20;
+  double y = top - 110;
+  for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= 44) {
+    const Curve& curve = chart.curves[c];
+    const Colour colour = curve_colour(static_cast<int>(c));
+    if (curve.dots)
+      canvas.rectangle({left + 20, y - 7}, {left + 34, y + 7}, colour);
+    else if (curve.dashed)
+      for (const double part : {0.0, 22.0, 44.0})
+        canvas.line({left + part, y}, {left + part + 12, y}, colour, 5);
+    else
+      canvas.line({left, y}, {left + 54, y}, colour, 5);
+    canvas.text({left + 70, y}, curve.label, {.size = 25, .width = legend_width - 100.0});
+  }
+}
+
 } // namespace
 
 void draw_plot(const Plot& plot) {
   const auto count = static_cast<int>(plot.charts.size());
-  Canvas canvas(chart_width, chart_height * count);
+  Canvas canvas(width, chart_height * count);
   for (int i = 0; i < count; ++i) {
     const Chart& spec = plot.charts[static_cast<std::size_t>(i)];
     const double low = chart_height * (count - 1 - i);
-    vtkRenderer& renderer = canvas.scene({0, low}, {chart_width, low + chart_height});
+    const bool legend = spec.curves.size() > 1;
+    const int chart_width = legend ? width - legend_width : width - 40;
+    vtkRenderer& renderer = canvas.scene({0, low}, {static_cast<double>(chart_width), low + chart_height});
     const vtkNew<vtkChartXY> chart;
-    chart->SetTitle(spec.title);
-    chart->GetTitleProperties()->SetFontSize(32);
-    chart->GetTitleProperties()->BoldOn();
-    style_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec.x_title, spec.log_x);
-    style_axis(*chart->GetAxis(vtkAxis::LEFT), spec.y_title, spec.log_y);
+    style_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec.x_title);
+    style_axis(*chart->GetAxis(vtkAxis::LEFT), "");
     for (std::size_t c = 0; c < spec.curves.size(); ++c)
       add_curve(*chart, spec.curves[c], spec, static_cast<int>(c));
-    chart->SetShowLegend(spec.curves.size() > 1);
-    chart->GetLegend()->SetLabelSize(24);
-    chart->GetLegend()->SetSymbolWidth(60);
+    fit_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec, true);
+    fit_axis(*chart->GetAxis(vtkAxis::LEFT), spec, false);
     chart->SetAutoSize(false);
-    chart->SetSize(vtkRectf(10, 10, chart_width - 40, chart_height - 25));
+    chart->SetSize(vtkRectf(60, 15, static_cast<float>(chart_width) - 80, chart_height - 95));
+    canvas.text({chart_width / 2.0, low + chart_height - 45}, spec.title,
+                {.size = 32, .anchor = Anchor::centre, .bold = true, .width = chart_width - 40.0});
+    if (legend)
+      draw_legend(canvas, spec, low + chart_height);
     const vtkNew<vtkContextActor> actor;
     actor->GetScene()->AddItem(chart);
     actor->GetScene()->SetRenderer(&renderer);
     renderer.AddViewProp(actor);
-    canvas.window().Render();
   }
   canvas.save(plot.file);
 }
