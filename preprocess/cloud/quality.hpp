@@ -22,10 +22,11 @@ struct Quality {
   double spacing_min = 0;        ///< smallest nearest-neighbour distance, m
   double spacing_mean = 0;       ///< mean nearest-neighbour distance, m
   double spacing_ratio = 0;      ///< min / mean
-  double spacing_min_over_h = 0; ///< min / h, h the (V/N)^(1/3) that merging used (the lattice spacing on lattices)
-  double volume_min = 0;         ///< smallest subvolume / mean
-  double volume_max = 0;         ///< largest subvolume / mean
-  std::int64_t corners = 0;      ///< CAD corners, each of them a particle
+  double spacing_min_over_h =
+      0;                 ///< min / h, h the (V/N)^(1/3) that merging used (the lattice spacing on lattices)
+  double volume_min = 0; ///< smallest subvolume / mean
+  double volume_max = 0; ///< largest subvolume / mean
+  std::int64_t corners = 0;                               ///< CAD corners, each of them a particle
   std::vector<std::pair<std::string, std::int64_t>> sets; ///< particles in each set
   std::uint64_t seed = 0;
   std::int64_t disconnected_cells = 0; ///< cells whose part of the body falls into several pieces

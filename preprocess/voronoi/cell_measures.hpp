@@ -1,0 +1,40 @@
+/// Volume, first moment and boundary area of every restricted Voronoi cell.
+#pragma once
+
+#include "core/cell_mesh.hpp"
+#include "preprocess/voronoi/restricted_voronoi.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace tessera::preprocess {
+
+/// A cell's outward area on one CAD surface.
+struct SurfaceShare {
+  std::int32_t surface;
+  Vec3 area;
+};
+
+/// In the body's scaled coordinates.
+struct CellMeasures {
+  std::vector<double> volume;
+  std::vector<Vec3> moment;                      ///< integral of (x - seed)
+  std::vector<std::vector<SurfaceShare>> shares; ///< by cell; surfaces ascending; empty inside
+  double closure_error = 0;      ///< largest |sum of face areas| / sum of |face areas| of a cell
+  std::int64_t disconnected = 0; ///< cells that fall into several pieces
+
+  /// A part of a cell that does not hang together with its seed (material across a slot) and who got it: the
+  /// neighbour it touches most among those whose own part it hangs together with, else the cell itself.
+  struct Orphan {
+    std::int32_t cell, component, receiver;
+  };
+  std::vector<Orphan> orphans; ///< ascending in cell, component
+};
+
+/// Orphan parts are counted with their receiver: volumes sum to the body's.
+CellMeasures measure_cells(const RestrictedVoronoi& voronoi);
+
+/// The cells as polyhedra in metres, for looking at.
+CellMesh collect_cells(const RestrictedVoronoi& voronoi, const CellMeasures& measures);
+
+} // namespace tessera::preprocess

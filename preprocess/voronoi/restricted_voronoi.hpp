@@ -1,0 +1,112 @@
+/// Voronoi cells restricted to the body, exactly, convex or not.
+///
+/// A cell that meets no boundary facet lies inside the body and is cut by bisectors alone. Any other cell is
+/// the sum of its intersections with the tetrahedra it meets, each of them convex; they are found by flooding
+/// from the tetrahedra behind the facets the cell meets.
+#pragma once
+
+#include "preprocess/voronoi/convex_cell.hpp"
+#include "preprocess/voronoi/delaunay.hpp"
+#include "preprocess/voronoi/tet_body.hpp"
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace tessera::preprocess {
+
+/// One convex piece of a cell. Its faces carry the label of the neighbour behind the bisector, or -1-k for
+/// face k of the tetrahedron `tet` it lies in.
+struct CellPiece {
+  const ConvexCell& cell;
+  std::int32_t tet;       ///< -1: the whole cell, inside the body
+  std::int32_t component; ///< pieces of one number hang together; 0 first
+};
+
+class RestrictedVoronoi {
+ public:
+  /// Everything in the body's scaled coordinates; all three outlive this. Finds which cells meet the
+  /// boundary.
+  RestrictedVoronoi(const TetBody& body, const std::vector<Vec3>& seeds, const DelaunayGraph& graph);
+
+  std::int64_t size() const { return static_cast<std::int64_t>(seeds_->size()); }
+  const TetBody& body() const { return *body_; }
+  const std::vector<Vec3>& seeds() const { return *seeds_; }
+  const DelaunayGraph& graph() const { return *graph_; }
+
+  bool meets_boundary(std::int64_t i) const { return rows_[i + 1] > rows_[i]; }
+
+  /// The seed whose cell holds `point`, walking from cell to cell beginning at `start`.
+  std::int32_t locate(const Vec3& point, std::int32_t start) const;
+
+  /// Room for one thread.
+  struct Workspace {
+    ConvexCell cell;
+    std::vector<std::uint32_t> met; ///< by tetrahedron: the last round that met it
+    std::uint32_t round = 0;
+    std::vector<std::int32_t> front;
+  };
+  static Workspace& workspace(); ///< this thread's
+
+  /// Calls visit(CellPiece) for each convex piece of cell i, components one after the other.
+  template <class Visit>
+  void visit(std::int64_t i, Visit&& visit) const {
+    Workspace& work = workspace();
+    if (!meets_boundary(i)) {
+      cut_whole(i, work.cell);
+      visit(CellPiece{work.cell, -1, 0});
+      return;
+    }
+    begin_round(work);
+    std::int32_t component = 0;
+    for (const std::int32_t facet : facets_of(i)) {
+      const std::int32_t start = body_->domain->facets[facet].tet;
+      if (!meet(work, start))
+        continue;
+      work.front.assign(1, start);
+      bool any = false;
+      while (!work.front.empty()) {
+        const std::int32_t t = work.front.back();
+        work.front.pop_back();
+        if (!cut_tetrahedron(i, t, work.cell))
+          continue;
+        any = true;
+        for (const ConvexCell::Face& face : work.cell.faces()) {
+          if (face.label >= 0)
+            continue;
+          const std::int32_t next = body_->across[t][-1 - face.label];
+          if (next >= 0 && meet(work, next))
+            work.front.push_back(next);
+        }
+        visit(CellPiece{work.cell, t, component});
+      }
+      if (any)
+        ++component;
+    }
+  }
+
+ private:
+  std::span<const std::int32_t> facets_of(std::int64_t i) const {
+    return {facets_.data() + rows_[i], static_cast<std::size_t>(rows_[i + 1] - rows_[i])};
+  }
+  void begin_round(Workspace& work) const;
+  static bool meet(Workspace& work, std::int32_t t) {
+    if (work.met[t] == work.round)
+      return false;
+    work.met[t] = work.round;
+    return true;
+  }
+  void cut_whole(std::int64_t i, ConvexCell& cell) const;
+  bool cut_tetrahedron(std::int64_t i, std::int32_t t, ConvexCell& cell) const;
+  bool cut_by_bisectors(std::int64_t i, ConvexCell& cell) const;
+  void find_boundary_cells();
+
+  const TetBody* body_;
+  const std::vector<Vec3>* seeds_;
+  const DelaunayGraph* graph_;
+  std::vector<std::int64_t> rows_;   ///< boundary facets each cell meets
+  std::vector<std::int32_t> facets_; ///< ascending in each row
+};
+
+} // namespace tessera::preprocess

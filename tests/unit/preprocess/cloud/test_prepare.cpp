@@ -1,0 +1,209 @@
+#include "preprocess/cloud/prepare.hpp"
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "tests/support/domains.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::preprocess {
+namespace {
+
+ParticleRequest lattice(double spacing) {
+  ParticleRequest request;
+  request.arrangement = Arrangement::lattice;
+  request.spacing = spacing;
+  return request;
+}
+
+ParticleRequest voronoi(std::int64_t count) {
+  ParticleRequest request;
+  request.arrangement = Arrangement::voronoi;
+  request.count = count;
+  return request;
+}
+
+/// Outward area vector of each CAD surface.
+std::vector<Vec3> surface_areas(const Domain& domain) {
+  std::vector<Vec3> areas(domain.surfaces.size(), Vec3::Zero());
+  for (const auto& facet : domain.facets) {
+    const Vec3& a = domain.vertices[facet.vertices[0]];
+    areas[facet.surface] +=
+        0.5 * (domain.vertices[facet.vertices[1]] - a).cross(domain.vertices[facet.vertices[2]] - a);
+  }
+  return areas;
+}
+
+void expect_exact(const Domain& domain, const Prepared& prepared) {
+  const Quality& q = prepared.quality;
+  EXPECT_LE(q.volume_error, 1e-12);
+  EXPECT_LE(q.closure_error, 1e-12);
+  EXPECT_LE(q.first_moment_error, 1e-12);
+  EXPECT_LE(q.area_sum, 1e-15);
+  EXPECT_EQ(q.disconnected_cells, 0);
+  const auto areas = surface_areas(domain);
+  for (std::size_t s = 0; s < areas.size(); ++s) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& A : prepared.cloud.set(domain.surfaces[s]).area)
+      sum += A;
+    EXPECT_LE((sum - areas[s]).norm(), 1e-12 * areas[s].norm()) << domain.surfaces[s];
+  }
+}
+
+std::int64_t corners_in(const ParticleCloud& cloud) {
+  return std::count(cloud.cad_dimension.begin(), cloud.cad_dimension.end(), 0);
+}
+
+class AtScale : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Metres, AtScale, testing::Values(1e-6, 1.0, 1e3));
+
+TEST_P(AtScale, BoxAndLShapeAreTessellatedExactly) {
+  const double scale = GetParam();
+  const Domain box = test::box_domain(Vec3(0.3, -2, 1) * scale, Vec3(1.7, -1, 1.9) * scale, 3);
+  const Domain ell = test::l_domain(2, scale, Vec3(0.1, 0.2, 0.3) * scale);
+  for (const Domain& domain : {box, ell}) {
+    expect_exact(domain, prepare(domain, lattice(0.1 * scale), Progress::silent()));
+    expect_exact(domain, prepare(domain, lattice(0.137 * scale), Progress::silent()));
+    expect_exact(domain, prepare(domain, voronoi(1500), Progress::silent()));
+  }
+}
+
+TEST(Prepare, LatticeOfTheCubeHasItsPointsOnAllFaces) {
+  const Domain box = test::box_domain();
+  const Prepared p = prepare(box, lattice(0.125), Progress::silent());
+  EXPECT_EQ(p.cloud.size(), 729);
+  EXPECT_EQ(p.cloud.set("xmin").particles.size(), 81u);
+  EXPECT_EQ(corners_in(p.cloud), 8);
+  EXPECT_EQ(std::count(p.cloud.cad_dimension.begin(), p.cloud.cad_dimension.end(), 1), 12 * 7);
+  EXPECT_EQ(std::count(p.cloud.cad_dimension.begin(), p.cloud.cad_dimension.end(), 2), 6 * 49);
+  for (std::int64_t i = 0; i < p.cloud.size(); ++i) {
+    // Half a spacing less on each side that lies on a face.
+    double expected = std::pow(0.125, 3);
+    for (int a = 0; a < 3; ++a)
+      if (p.cloud.X[i][a] == 0 || p.cloud.X[i][a] == 1)
+        expected /= 2;
+    EXPECT_NEAR(p.cloud.V[i], expected, 1e-16);
+  }
+}
+
+TEST(Prepare, UniformSubvolumesKeepTheBoundaryAreasOfTheCells) {
+  const Domain box = test::box_domain();
+  ParticleRequest request = lattice(0.125);
+  const Prepared exact = prepare(box, request, Progress::silent());
+  request.subvolumes = Subvolumes::uniform;
+  const Prepared uniform = prepare(box, request, Progress::silent());
+  for (const double V : uniform.cloud.V)
+    EXPECT_DOUBLE_EQ(V, 1.0 / 729);
+  EXPECT_EQ(uniform.cloud.A, exact.cloud.A);
+  EXPECT_EQ(uniform.cloud.subvolumes, "uniform");
+}
+
+TEST(Prepare, TwoPassCloudKeepsCornersDistanceAndCount) {
+  for (const Domain& domain : {test::box_domain(), test::l_domain(2)})
+    for (const std::int64_t count : {400, 3000}) {
+      const Prepared p = prepare(domain, voronoi(count), Progress::silent());
+      EXPECT_NEAR(static_cast<double>(p.cloud.size()), static_cast<double>(count), 0.02 * count);
+      EXPECT_GE(p.quality.spacing_min_over_h, 0.39);
+      EXPECT_EQ(corners_in(p.cloud), static_cast<std::int64_t>(domain.corners.size()));
+      for (const std::int32_t v : domain.corners)
+        EXPECT_EQ(std::count(p.cloud.X.begin(), p.cloud.X.end(), domain.vertices[v]), 1);
+    }
+}
+
+TEST(Prepare, SameSeedSameBitsOnAnyThreadCount) {
+  const Domain ell = test::l_domain(2);
+  const auto cloud_with = [&](int threads, std::uint64_t seed) {
+    set_threads(threads);
+    ParticleRequest request = voronoi(2000);
+    request.seed = seed;
+    Prepared p = prepare(ell, request, Progress::silent());
+    set_threads(0);
+    return p;
+  };
+  const Prepared one = cloud_with(1, 5);
+  for (const int threads : {2, 3}) {
+    const Prepared many = cloud_with(threads, 5);
+    EXPECT_EQ(one.cloud.X, many.cloud.X);
+    EXPECT_EQ(one.cloud.V, many.cloud.V);
+    EXPECT_EQ(one.cloud.A, many.cloud.A);
+    EXPECT_EQ(one.cloud.centroid, many.cloud.centroid);
+  }
+  EXPECT_NE(one.cloud.X, cloud_with(1, 6).cloud.X);
+}
+
+TEST(Prepare, KeptCellsFillTheBody) {
+  const Domain ell = test::l_domain(1);
+  ParticleRequest request = voronoi(300);
+  request.keep_cells = true;
+  const Prepared p = prepare(ell, request, Progress::silent());
+  std::vector<double> volume(p.cloud.X.size(), 0);
+  for (const auto& cell : p.cells.cells)
+    for (const auto& face : cell.faces)
+      for (std::size_t k = 2; k < face.size(); ++k)
+        volume[cell.particle] +=
+            p.cells.points[face[0]].dot(p.cells.points[face[k - 1]].cross(p.cells.points[face[k]])) / 6;
+  for (std::size_t i = 0; i < volume.size(); ++i)
+    EXPECT_NEAR(volume[i], p.cloud.V[i], 1e-13);
+}
+
+TEST(Prepare, SelectorsFindTheirParticlesOrSayWhereTheyAre) {
+  const Domain box = test::box_domain();
+  ParticleRequest request = lattice(0.25);
+  request.sets = {{"middle", PlaneSelector{Vec3(0.5, 0, 0), Vec3(2, 0, 0)}},
+                  {"top", PlaneSelector{Vec3(0, 0, 1), Vec3(0, 0, 1)}},
+                  {"octant", BoxSelector{Vec3::Zero(), Vec3::Constant(0.25)}},
+                  {"probe", NearestSelector{Vec3(0.51, 0.2, 0.9)}}};
+  const Prepared p = prepare(box, request, Progress::silent());
+  EXPECT_EQ(p.cloud.set("middle").particles.size(), 25u);
+  EXPECT_TRUE(p.cloud.set("middle").area.empty());
+  EXPECT_EQ(p.cloud.set("top").particles, p.cloud.set("zmax").particles);
+  EXPECT_EQ(p.cloud.set("top").area, p.cloud.set("zmax").area);
+  EXPECT_EQ(p.cloud.set("octant").particles.size(), 8u);
+  ASSERT_EQ(p.cloud.set("probe").particles.size(), 1u);
+  EXPECT_EQ(p.cloud.X[p.cloud.set("probe").particles[0]], Vec3(0.5, 0.25, 1));
+
+  request.sets = {{"nowhere", BoxSelector{Vec3::Constant(3), Vec3::Constant(4)}}};
+  try {
+    prepare(box, request, Progress::silent());
+    FAIL() << "an empty set went unnoticed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("(1, 1, 1)"), std::string::npos);
+  }
+}
+
+TEST(Prepare, RefusesRequestsItCannotMeet) {
+  const Domain box = test::box_domain();
+  const auto refuses = [&](const ParticleRequest& request) {
+    EXPECT_THROW(prepare(box, request, Progress::silent()), InputError);
+  };
+  refuses(ParticleRequest{}); // neither spacing nor count
+  ParticleRequest both = lattice(0.1);
+  both.count = 10;
+  refuses(both);
+  refuses(lattice(std::nan("")));
+  refuses(lattice(1e-4)); // a million million particles
+  ParticleRequest far = voronoi(0);
+  far.spacing = 10;
+  refuses(far);
+  ParticleRequest merge = voronoi(100);
+  merge.merge = 1;
+  refuses(merge);
+  ParticleRequest twice = lattice(0.5);
+  twice.sets = {{"xmin", NearestSelector{Vec3::Zero()}}};
+  refuses(twice);
+}
+
+TEST(Prepare, QualityIsWrittenAsJson) {
+  const Prepared p = prepare(test::box_domain(), lattice(0.5), Progress::silent());
+  const std::string text = to_json(p.quality);
+  for (const char* key :
+       {"\"particles\": 27", "\"volume_error\"", "\"disconnected_cells\": 0", "\"xmin\": 9"})
+    EXPECT_NE(text.find(key), std::string::npos) << key;
+}
+
+} // namespace
+} // namespace tessera::preprocess
