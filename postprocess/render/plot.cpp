@@ -25,7 +25,7 @@
 namespace tessera::post {
 namespace {
 
-constexpr int width = 1600, chart_height = 800, legend_width = 330;
+constexpr int width = 1600, legend_width = 330;
 
 void style_axis(vtkAxis& axis, const std::string& title) {
   axis.SetTitle(title);
@@ -135,6 +135,8 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top) {
 
 void draw_plot(const Plot& plot) {
   const auto count = static_cast<int>(plot.charts.size());
+  // Many charts become lower: renderers draw no picture above 16384 pixels.
+  const int chart_height = std::clamp(12000 / std::max(count, 1), 260, 800);
   Canvas canvas(width, chart_height * count);
   for (int i = 0; i < count; ++i) {
     const Chart& spec = plot.charts[static_cast<std::size_t>(i)];

@@ -1,0 +1,28 @@
+/// From columns of history.csv to charts.
+#pragma once
+
+#include "io/series.hpp"
+#include "postprocess/render_job.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tessera::post {
+
+/// One run's history under the name its curve carries.
+struct NamedHistory {
+  std::string name;
+  const io::History* history;
+};
+
+/// The columns a case asked for, in their order: all but those every history has.
+std::vector<std::string> probe_columns(const io::History& history);
+
+/// `column` of each history against time, one curve a run, in readable units.
+Chart chart_over_time(const std::string& title, const std::string& column,
+                      const std::vector<NamedHistory>& runs);
+
+/// The energies of one run that are not zero throughout, and the balance error below them.
+std::vector<Chart> energy_charts(const std::string& title, const io::History& history);
+
+} // namespace tessera::post
