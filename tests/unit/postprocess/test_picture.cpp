@@ -1,0 +1,218 @@
+#include "postprocess/picture.hpp"
+#include "postprocess/render_job.hpp"
+#include "tests/unit/postprocess/stored_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <array>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+namespace tessera::post {
+namespace {
+
+using test::TemporaryFolder;
+
+/// What can be said of a picture without looking at it.
+struct Seen {
+  int width = 0, height = 0;
+  std::set<std::array<int, 3>> colours;
+  double white = 0;               ///< share of the pixels
+  int left = 1 << 30, right = -1; ///< columns of the saturated pixels, that is of the body and the colour bar
+
+  explicit Seen(const std::filesystem::path& file) {
+    const vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    vtkImageData* image = reader->GetOutput();
+    width = image->GetDimensions()[0];
+    height = image->GetDimensions()[1];
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const auto* p = static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
+        colours.insert({p[0], p[1], p[2]});
+        white += p[0] == 255 && p[1] == 255 && p[2] == 255;
+        const auto [low, high] = std::minmax({p[0], p[1], p[2]});
+        if (high - low < 60)
+          continue;
+        left = std::min(left, x);
+        right = std::max(right, x);
+      }
+    white /= static_cast<double>(width) * height;
+  }
+};
+
+/// A progress whose notes can be read.
+struct Notes {
+  std::ostringstream out;
+  Progress progress{out, false, false};
+};
+
+TEST(Picture, ParticlesFillTheirPart) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture strain;
+  strain.name = "strain";
+  strain.field = "PlasticStrain";
+  strain.outline = true;
+  Picture cut = strain;
+  cut.name = "cut";
+  cut.field = "Velocity";
+  cut.view = "iso";
+  cut.clip = "y";
+  Notes notes;
+  const auto files = draw({strain, cut}, {folder.path()}, {"bar"}, folder.path(), notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files, (std::vector<std::filesystem::path>{folder / "strain.png", folder / "cut.png"}));
+  for (const auto& file : files) {
+    const Seen seen(file);
+    EXPECT_GE(seen.height, 1000);
+    EXPECT_GE(seen.width, 600);
+    EXPECT_GT(seen.colours.size(), 500u) << "spheres are shaded";
+    EXPECT_LT(seen.white, 0.93) << "the body is not tiny";
+    EXPECT_GT(seen.white, 0.3) << "on white";
+    EXPECT_LT(seen.left, 200) << "the body begins at the left margin";
+    EXPECT_LT(seen.right, seen.width - 100) << "numbers fit beside the colour bar";
+  }
+}
+
+TEST(Picture, SeveralRunsStandSideBySide) {
+  const TemporaryFolder folder;
+  test::store_run(folder / "a", 7e-3);
+  test::store_run(folder / "b", 6e-3);
+  Picture strain;
+  strain.field = "PlasticStrain";
+  Notes notes;
+  const auto one = draw({strain}, {folder / "a"}, {"a"}, folder / "a", notes.progress);
+  const auto two = draw({strain}, {folder / "a", folder / "b"}, {"a", "b"}, folder / "b", notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(one.size() + two.size(), 2u);
+  EXPECT_GT(Seen(two[0]).width, Seen(one[0]).width + 300);
+}
+
+TEST(Picture, CloudIsDrawnFromItsFile) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  const auto files = draw_cloud(folder.path(), Progress::silent());
+  ASSERT_EQ(files, std::vector<std::filesystem::path>{folder / "cloud.png"});
+  EXPECT_GT(Seen(files[0]).colours.size(), 500u);
+}
+
+TEST(Picture, APlaneBodyIsSeenFromAbove) {
+  const TemporaryFolder folder;
+  std::vector<Vec3> X;
+  std::vector<double> p;
+  for (int j = 0; j < 8; ++j)
+    for (int i = 0; i < 40; ++i) {
+      X.emplace_back(0.001 * i, 0.001 * j, 0);
+      p.push_back(0); // and a field of one value has a scale, too
+    }
+  io::FrameSeries(folder.path()).write({0, 0, X, {{"Pressure", 1, p}}});
+  Picture pressure;
+  pressure.name = "pressure";
+  pressure.field = "Pressure";
+  pressure.clip = "y";
+  Notes notes;
+  const auto files = draw({pressure}, {folder.path()}, {}, folder.path(), notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_GT(Seen(files[0]).width, 2 * Seen(files[0]).height) << "a long body makes a wide picture";
+}
+
+TEST(Picture, WhatCannotBeDrawnIsNotedAndTheOthersAreDrawn) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture wrong, stress, right;
+  wrong.name = "wrong";
+  wrong.field = "Temperature";
+  stress.name = "tensor";
+  stress.field = "Stress";
+  right.name = "right";
+  right.field = "Stress.zz";
+  Notes notes;
+  const auto files = draw({wrong, stress, right}, {folder.path()}, {}, folder.path(), notes.progress);
+  EXPECT_EQ(files, std::vector<std::filesystem::path>{folder / "right.png"});
+  EXPECT_NE(notes.out.str().find("no wrong.png: no field 'Temperature'"), std::string::npos)
+      << notes.out.str();
+  EXPECT_NE(notes.out.str().find("PlasticStrain"), std::string::npos) << "the fields there are";
+  EXPECT_NE(notes.out.str().find("Stress.xx"), std::string::npos) << notes.out.str();
+}
+
+TEST(Picture, DamagedFramesAndMissingSeriesAreNoted) {
+  const TemporaryFolder folder;
+  Picture strain;
+  strain.field = "PlasticStrain";
+  Notes notes;
+  EXPECT_TRUE(draw({strain}, {folder.path()}, {}, folder.path(), notes.progress).empty());
+  EXPECT_NE(notes.out.str().find("no stored fields"), std::string::npos) << notes.out.str();
+  test::store_run(folder.path(), 7e-3);
+  const auto frame = folder / "fields/fields_0001.vtu";
+  test::store(frame, test::content(frame).substr(0, 3000));
+  EXPECT_TRUE(draw({strain}, {folder.path()}, {}, folder.path(), notes.progress).empty());
+  EXPECT_NE(notes.out.str().find("fields_0001.vtu"), std::string::npos) << notes.out.str();
+}
+
+/// Sets an environment variable until the end of the scope.
+class Setting {
+ public:
+  Setting(const char* name, const char* value)
+      : name_(name), before_(std::getenv(name) ? std::getenv(name) : "") {
+    ::setenv(name, value, 1);
+  }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+  ~Setting() { before_.empty() ? ::unsetenv(name_) : ::setenv(name_, before_.c_str(), 1); }
+
+ private:
+  const char* name_;
+  std::string before_;
+};
+
+TEST(Picture, WithoutXvfbThereIsANoteAndNoFile) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Notes notes;
+  const Setting path("PATH", folder.path().c_str());
+  EXPECT_TRUE(draw_cloud(folder.path(), notes.progress).empty());
+  EXPECT_NE(notes.out.str().find("xvfb-run is not installed"), std::string::npos) << notes.out.str();
+  EXPECT_FALSE(std::filesystem::exists(folder / "cloud.png"));
+}
+
+TEST(Picture, ARendererThatIsNotThereOrFailsIsNoted) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Notes notes;
+  const Setting libexec("TESSERA_LIBEXEC", folder.path().c_str());
+  EXPECT_TRUE(draw_cloud(folder.path(), notes.progress).empty());
+  EXPECT_NE(notes.out.str().find("TESSERA_LIBEXEC"), std::string::npos) << notes.out.str();
+  test::store(folder / "tessera-render", "#!/bin/sh\necho the card is on fire >&2\nexit 3\n");
+  std::filesystem::permissions(folder / "tessera-render", std::filesystem::perms::owner_all);
+  EXPECT_TRUE(draw_cloud(folder.path(), notes.progress).empty());
+  EXPECT_NE(notes.out.str().find("the card is on fire"), std::string::npos) << notes.out.str();
+}
+
+TEST(Plot, CurvesAreDrawnAndOddValuesLeftOut) {
+  const TemporaryFolder folder;
+  Chart chart{"Errors", "Time (s)", "Error (-)", true, true, {}};
+  chart.curves.push_back({"first", {1, 10, 100, 0}, {1, 0.1, NAN, 1}, false, false});
+  chart.curves.push_back({"second", {1, 10, 100}, {2, 0.5, 0.02}, true, false});
+  chart.curves.push_back({"none", {}, {}, false, true});
+  Chart constant{"Constant", "x", "y", false, false, {{"", {0, 1}, {5, 5}, false, false}}};
+  Notes notes;
+  const auto files = render({{}, {{(folder / "p.png").string(), {chart, constant}}}}, notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 1u);
+  const Seen seen(files[0]);
+  EXPECT_EQ(seen.width, 1600);
+  EXPECT_EQ(seen.height, 1600);
+  EXPECT_TRUE(seen.colours.contains({0, 90, 181}));
+  EXPECT_TRUE(seen.colours.contains({220, 50, 32}));
+}
+
+} // namespace
+} // namespace tessera::post
