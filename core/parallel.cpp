@@ -11,6 +11,6 @@ int thread_count = 0;
 
 void set_threads(int n) { thread_count = n; }
 
-int threads() { return thread_count > 0 ? thread_count : omp_get_num_procs(); }
+int threads() { return thread_count > 0 ? thread_count : omp_get_max_threads(); }
 
 } // namespace tessera

@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-/// Threads used by every loop from now on; n <= 0 means all cores.
+/// Threads used by every loop from now on; n <= 0 means as many as OpenMP offers (OMP_NUM_THREADS, else all cores).
 void set_threads(int n);
 int threads();
 

@@ -14,12 +14,13 @@ Neighbours uniform_support(std::span<const Vec3> X, double radius) {
 
 template <int D>
 Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours) {
-  require(static_cast<std::size_t>(neighbours) + 1 < X.size(),
+  require(static_cast<std::size_t>(neighbours) < X.size(),
           fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()), "solver.neighbours",
           "ask for fewer, or for more particles");
   constexpr double ill_conditioned = 1e3;
-  // The kernel vanishes at its radius, so the k-th neighbour counts only when the radius reaches to the next one.
-  std::vector<double> support = distance_to_nearest(X, neighbours + 1);
+  // The kernel vanishes at its radius: a little beyond the last neighbour, so that it counts.
+  std::vector<double> support = distance_to_nearest(X, neighbours);
+  for (double& radius : support) radius *= 1.02;
   for (int round = 0; round < 10; ++round) {
     Neighbours found = find_neighbours(X, support);
     std::vector<std::uint8_t> grow(X.size(), 0);

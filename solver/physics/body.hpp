@@ -107,7 +107,7 @@ private:
       if constexpr (Dissipation::active) lap_p = -dissipation.laplacian.sum[a] * U.p[a];
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const Vec<D>& p_b = U.p[neighbours.column[e]];
-        G += p_b * gradient.w[e].transpose();
+        for (int c = 0; c < D; ++c) G.col(c) += gradient.w[e][c] * p_b;
         if constexpr (Dissipation::active) lap_p += dissipation.laplacian.l[e] * p_b;
       }
       R.F[a] = G / density;

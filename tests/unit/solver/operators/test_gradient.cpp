@@ -1,0 +1,110 @@
+#include "solver/operators/gradient.hpp"
+
+#include "core/error.hpp"
+#include "solver/operators/support.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+namespace {
+
+struct Clouds {
+  ParticleCloud cloud;
+  Neighbours graph;
+};
+
+std::vector<Clouds> solid_clouds() {
+  std::vector<Clouds> list;
+  const auto lattice = test::box_lattice(7, 6, 8, Vec3(1.2, 1, 1.4));
+  list.push_back({lattice, uniform_support(lattice.X, 2.2 * lattice.spacing)});
+  const auto irregular = test::jittered(lattice, 0.3, 11);
+  list.push_back({irregular, adaptive_support<3>(irregular.X, irregular.V, 30)});
+  // The same in micrometres: weights must not depend on the unit.
+  auto small = irregular;
+  for (Vec3& x : small.X) x *= 1e-6;
+  for (double& v : small.V) v *= 1e-18;
+  small.spacing *= 1e-6;
+  list.push_back({small, adaptive_support<3>(small.X, small.V, 30)});
+  return list;
+}
+
+template <int D> void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph) {
+  const auto gradient = build_gradient<D>(cloud.X, cloud.V, graph);
+  Mat<D> slope;
+  for (int i = 0; i < D * D; ++i) slope.data()[i] = 0.3 * i - 0.8;
+  const auto f = [&](std::int64_t a) -> Vec<D> { return slope * cloud.X[a].template head<D>() + Vec<D>::Constant(0.25); };
+  for (std::int64_t a = 0; a < graph.size(); ++a) {
+    Mat<D> G = -f(a) * gradient.s[a].transpose();
+    for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
+      G += f(graph.column[e]) * gradient.w[e].transpose();
+    // The sums hold terms of the size of f / spacing: round-off is relative to that.
+    const double scale = slope.norm() + 0.5 / cloud.spacing;
+    ASSERT_LT((G - slope).norm() / scale, 1e-12) << a;
+  }
+}
+
+} // namespace
+
+TEST(Gradient, IsExactOnLinearFields) {
+  for (const auto& [cloud, graph] : solid_clouds()) exact_on_linear<3>(cloud, graph);
+  const auto plane = test::jittered(test::box_lattice(9, 11, 1, Vec3(1, 1, 0)), 0.3, 3);
+  exact_on_linear<2>(plane, adaptive_support<2>(plane.X, plane.V, 12));
+}
+
+TEST(Gradient, DivergenceIsMinusItsWeightedTranspose) {
+  for (const auto& [cloud, graph] : solid_clouds()) {
+    const auto gradient = build_gradient<3>(cloud.X, cloud.V, graph);
+    std::mt19937_64 random(5);
+    const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+    std::vector<Vec3> v(cloud.X.size());
+    std::vector<Mat3> P(cloud.X.size());
+    for (auto& u : v) u = Vec3(number(), number(), number());
+    for (auto& Q : P)
+      for (int i = 0; i < 9; ++i) Q.data()[i] = number();
+    double power_of_forces = 0, power_of_stresses = 0;
+    for (std::int64_t a = 0; a < graph.size(); ++a) {
+      Mat3 G = -v[a] * gradient.s[a].transpose();
+      Vec3 T = P[a] * gradient.s[a];
+      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
+        G += v[graph.column[e]] * gradient.w[e].transpose();
+        T += P[graph.column[e]] * gradient.t[e];
+      }
+      power_of_forces += cloud.V[a] * v[a].dot(T);
+      power_of_stresses += cloud.V[a] * (P[a].array() * G.array()).sum();
+    }
+    EXPECT_NEAR(power_of_forces / power_of_stresses, -1, 1e-12);
+  }
+}
+
+TEST(Gradient, ForcesOfAnyStressSumToZero) {
+  for (const auto& [cloud, graph] : solid_clouds()) {
+    const auto gradient = build_gradient<3>(cloud.X, cloud.V, graph);
+    Vec3 total = Vec3::Zero();
+    double scale = 0;
+    for (std::int64_t a = 0; a < graph.size(); ++a) {
+      const auto stress = [&](std::int64_t b) { return Mat3(Mat3::Identity() * std::sin(static_cast<double>(b))); };
+      Vec3 T = stress(a) * gradient.s[a];
+      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) T += stress(graph.column[e]) * gradient.t[e];
+      total += cloud.V[a] * T;
+      scale += cloud.V[a] * T.norm();
+    }
+    EXPECT_LT(total.norm() / scale, 1e-12);
+  }
+}
+
+TEST(Gradient, TooSmallASupportNamesTheParticleAndItsNeighbours) {
+  const auto cloud = test::box_lattice(4, 4, 4, Vec3(1, 1, 1));
+  try {
+    build_gradient<3>(cloud.X, cloud.V, uniform_support(cloud.X, 0.9 * cloud.spacing));
+    FAIL() << "built";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("particle 0 at (0, 0, 0) m has 0 neighbours"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("raise solver.support"), std::string::npos);
+  }
+}

@@ -1,0 +1,35 @@
+#include "solver/operators/support.hpp"
+
+#include "core/error.hpp"
+#include "solver/operators/gradient.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+TEST(Support, OnALatticeTheReferenceRadiusHolds32NeighboursInside) {
+  const auto cloud = test::box_lattice(7, 7, 7, Vec3(1, 1, 1));
+  const Neighbours graph = uniform_support(cloud.X, 2.2 * cloud.spacing);
+  EXPECT_EQ(graph.count(171), 32); // 6 + 12 + 8 + 6 at distances 1, sqrt 2, sqrt 3, 2
+}
+
+TEST(Support, EveryParticleOfAnIrregularCloudHasEnoughNeighboursOfItsOwn) {
+  const auto cloud = test::jittered(test::box_lattice(8, 8, 8, Vec3(1, 2, 1)), 0.3, 7);
+  const Neighbours graph = adaptive_support<3>(cloud.X, cloud.V, 30);
+  for (std::int64_t a = 0; a < graph.size(); ++a) {
+    EXPECT_GE(graph.count(a), 30);
+    EXPECT_LT(condition_number<3>(moment_matrix<3>(a, cloud.X, cloud.V, graph)), 1e3);
+    for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
+      const auto first = graph.column.begin() + graph.row[graph.column[e]];
+      const auto last = graph.column.begin() + graph.row[graph.column[e] + 1];
+      EXPECT_TRUE(std::binary_search(first, last, static_cast<std::int32_t>(a)));
+    }
+  }
+}
+
+TEST(Support, MoreNeighboursThanParticlesIsAnError) {
+  const auto cloud = test::box_lattice(3, 3, 3, Vec3(1, 1, 1));
+  EXPECT_THROW(adaptive_support<3>(cloud.X, cloud.V, 30), InputError);
+}

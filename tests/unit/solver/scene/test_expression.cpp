@@ -1,0 +1,28 @@
+#include "solver/scene/expression.hpp"
+
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+TEST(Expression, EvaluatesAtThePosition) {
+  const Expression f("10*Z/6 + sin(_pi*X/2) - Y^2");
+  EXPECT_DOUBLE_EQ(f(Vec3(1, 2, 3)), 10 * 3.0 / 6 + 1 - 4);
+  EXPECT_EQ(Expression("-227")(Vec3::Zero()), -227);
+}
+
+TEST(Expression, AFaultIsReportedWithItsPosition) {
+  try {
+    Expression("10*Q");
+    FAIL() << "parsed";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"10*Q\" cannot be read at position 4"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(Expression("1+"), InputError);
+  EXPECT_THROW(Expression(""), InputError);
+}
+
+TEST(Expression, AnInfiniteValueIsRefused) { EXPECT_THROW(Expression("1/X")(Vec3::Zero()), InputError); }

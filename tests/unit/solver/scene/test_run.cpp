@@ -1,0 +1,154 @@
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "solver/scene/scene.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+namespace {
+
+/// A short copper bar thrown at a wall.
+SceneSpec impact() {
+  SceneSpec scene;
+  scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
+  scene.jst4 = 1.0 / 4096;
+  scene.end_time = 3e-6;
+  scene.initial.push_back({"all", {Expression("0"), Expression("0"), Expression("-227")}});
+  scene.walls.push_back({});
+  scene.probes = {{"radius", "radius", "max", "all"}, {"length", "z", "extent", "all"}};
+  scene.frames = 4;
+  scene.history_rows = 10;
+  return scene;
+}
+
+struct Recorded {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+  std::vector<double> frame_times;
+  std::vector<double> last_displacement;
+  Outputs outputs() {
+    return {[this](const Frame& frame) {
+              frame_times.push_back(frame.time);
+              last_displacement.assign(frame.fields[0].values.begin(), frame.fields[0].values.end());
+            },
+            [this](const std::vector<std::string>& names) { columns = names; },
+            [this](const std::vector<double>& row) { rows.push_back(row); }};
+  }
+};
+
+} // namespace
+
+TEST(Run, HandsOutFramesHistoryAndSummary) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  Recorded recorded;
+  const Summary summary = run(impact(), cloud, recorded.outputs(), Progress::silent());
+  EXPECT_EQ(recorded.frame_times.size(), 5u);
+  EXPECT_EQ(recorded.frame_times.front(), 0);
+  EXPECT_EQ(recorded.frame_times.back(), 3e-6);
+  EXPECT_TRUE(std::is_sorted(recorded.frame_times.begin(), recorded.frame_times.end()));
+  ASSERT_EQ(recorded.rows.size(), 11u);
+  for (const auto& row : recorded.rows) ASSERT_EQ(row.size(), recorded.columns.size());
+  EXPECT_EQ(recorded.columns[recorded.columns.size() - 2], "radius_m");
+  EXPECT_EQ(summary.time, 3e-6);
+  EXPECT_EQ(summary.formulation, "pF");
+  EXPECT_EQ(summary.probes[0].first, "radius_m");
+  EXPECT_EQ(summary.probes[0].second, recorded.rows.back()[recorded.columns.size() - 2]);
+  EXPECT_GT(summary.max_equivalent_plastic_strain, 0.1);
+  EXPECT_GE(summary.extent_min[2], 0);
+}
+
+TEST(Run, OutputDoesNotChangeTheStepsTaken) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  Recorded few, many;
+  const Summary a = run(scene, cloud, few.outputs(), Progress::silent());
+  scene.frames = 37;
+  scene.history_rows = 1;
+  const Summary b = run(scene, cloud, many.outputs(), Progress::silent());
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(few.last_displacement, many.last_displacement);
+}
+
+TEST(Run, GivesTheSameBitsOnAnyThreadCount) {
+  const auto cloud = test::cylinder_lattice(4, 21, 0.64e-3);
+  Recorded one, three;
+  set_threads(1);
+  run(impact(), cloud, one.outputs(), Progress::silent());
+  set_threads(3);
+  run(impact(), cloud, three.outputs(), Progress::silent());
+  set_threads(0);
+  EXPECT_EQ(one.rows, three.rows);
+  EXPECT_EQ(one.last_displacement, three.last_displacement);
+}
+
+TEST(Run, ABlowUpNamesParticleStepAndTimeAndLeavesTheLastGoodFrame) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  scene.initial[0].velocity[2] = Expression("-9000"); // twice the speed of sound in copper
+  scene.cfl = 1;
+  Recorded recorded;
+  try {
+    run(scene, cloud, recorded.outputs(), Progress::silent());
+    FAIL() << "survived";
+  } catch (const RunError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("particle "), std::string::npos) << message;
+    EXPECT_NE(message.find("step "), std::string::npos) << message;
+    EXPECT_NE(message.find("time "), std::string::npos) << message;
+    EXPECT_EQ(error.status(), ExitStatus::run_failed);
+  }
+  ASSERT_FALSE(recorded.last_displacement.empty());
+  for (const double u : recorded.last_displacement) ASSERT_TRUE(std::isfinite(u));
+  EXPECT_EQ(recorded.rows.back()[0], recorded.frame_times.back());
+}
+
+TEST(Run, ASupportTooSmallIsRefusedBeforeTheFirstStep) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  scene.support = 0.9;
+  EXPECT_THROW(run(scene, cloud, {}, Progress::silent()), InputError);
+}
+
+TEST(Run, ABodyBehindItsWallIsRefused) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  scene.walls[0].point = Vec3(0, 0, 1e-3);
+  EXPECT_THROW(run(scene, cloud, {}, Progress::silent()), InputError);
+}
+
+TEST(Run, ElasticScenesRunInThePlaneAndWithoutDissipation) {
+  const auto cloud = test::box_lattice(9, 9, 1, Vec3(1, 1, 0));
+  SceneSpec scene;
+  scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
+  scene.end_time = 0.02;
+  scene.fixed = {{"base", {true, true, true}}};
+  scene.initial.push_back({"all", {Expression("0.1*Y"), Expression("0"), Expression("0")}});
+  scene.probes = {{"tip", "ux", "max", "top"}, {"foot", "ux", "extent", "base"}};
+  for (const double jst4 : {0.0, 0.125}) {
+    scene.jst4 = jst4;
+    const Summary summary = run(scene, cloud, {}, Progress::silent());
+    EXPECT_GT(summary.probes[0].second, 5e-4);
+    EXPECT_EQ(summary.probes[1].second, 0);
+    EXPECT_LT(summary.energy.balance_error, 1e-3);
+    EXPECT_EQ(summary.energy.plastic, 0);
+  }
+}
+
+TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  const Forecast forecast = tessera::solver::forecast(impact(), cloud);
+  const double c = std::sqrt(117e9 * 0.65 / (1.35 * 0.3) / 8930);
+  EXPECT_NEAR(forecast.wave_speed / c, 1, 1e-12);
+  EXPECT_NEAR(forecast.dt / (0.3 * 0.64e-3 / c), 1, 1e-9);
+  EXPECT_NEAR(forecast.mass / (8930 * cloud.domain_volume), 1, 1e-12);
+  EXPECT_GT(forecast.bytes_per_particle, 1000);
+  EXPECT_FALSE(forecast.modelled.empty());
+  EXPECT_NE(std::find(forecast.left_out.begin(), forecast.left_out.end(), "fixed velocities (no [[boundary]])"),
+            forecast.left_out.end());
+}

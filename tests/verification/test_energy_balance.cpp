@@ -1,0 +1,51 @@
+/// What the ledger of energies leaves unaccounted for is the error of the time integration alone: of second order in the
+/// step.
+#include "solver/scene/scene.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+namespace {
+
+/// Largest balance error of a run.
+double balance_error(SceneSpec scene, const ParticleCloud& cloud, double cfl) {
+  scene.cfl = cfl;
+  double worst = 0;
+  Outputs outputs;
+  outputs.history_row = [&](const std::vector<double>& row) { worst = std::max(worst, row[9]); };
+  run(scene, cloud, outputs, Progress::silent());
+  return worst;
+}
+
+} // namespace
+
+TEST(EnergyBalance, OfAnElasticBodyIsOfSecondOrderInTheStep) {
+  SceneSpec scene;
+  scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
+  scene.initial.push_back({"all", {Expression("0"), Expression("0.5*Z"), Expression("3*Z")}});
+  scene.fixed.push_back({"base", {true, true, true}});
+  scene.end_time = 0.02;
+  const auto cloud = test::box_lattice(5, 5, 9, Vec3(0.5, 0.5, 1));
+  const double coarse = balance_error(scene, cloud, 0.2), fine = balance_error(scene, cloud, 0.1);
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.8);
+}
+
+TEST(EnergyBalance, OfAPlasticImpactConvergesWithTheStep) {
+  SceneSpec scene;
+  scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
+  scene.jst4 = 1.0 / 4096;
+  scene.initial.push_back({"all", {Expression("0"), Expression("0"), Expression("-227")}});
+  scene.walls.push_back({});
+  scene.end_time = 3e-6;
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  const double coarse = balance_error(scene, cloud, 0.3), fine = balance_error(scene, cloud, 0.15);
+  EXPECT_LT(coarse, 0.02);
+  EXPECT_LT(fine, coarse / 3);
+}
