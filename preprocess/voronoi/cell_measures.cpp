@@ -3,6 +3,7 @@
 #include "core/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tessera::preprocess {
@@ -144,6 +145,44 @@ void hand_over_orphans(const RestrictedVoronoi& voronoi, const std::vector<std::
   }
 }
 
+/// Whether a face lies in one of cell i's bisectors.
+bool on_bisector(const RestrictedVoronoi& voronoi, std::int64_t i, const ConvexCell& cell,
+                 const ConvexCell::Face& face) {
+  const Vec3& seed = voronoi.seeds()[i];
+  const auto row = voronoi.graph().of(i);
+  return std::any_of(row.begin(), row.end(), [&](std::int32_t j) {
+    const Vec3 unit = (voronoi.seeds()[j] - seed).normalized(), middle = (voronoi.seeds()[j] + seed) / 2;
+    const auto loop = cell.loop(face);
+    return std::all_of(loop.begin(), loop.end(), [&](std::int32_t v) {
+      return std::abs(unit.dot(cell.vertices()[v] - middle)) < 1e-12;
+    });
+  });
+}
+
+/// Closure of a cell where a bisector coincides with a face between two tetrahedra, as meshes and lattices
+/// that share planes have it: that face bounds the cell though no cut made it.
+double careful_closure(const RestrictedVoronoi& voronoi, std::int64_t i) {
+  std::vector<std::int32_t> tets;
+  voronoi.visit(i, [&](const CellPiece& piece) { tets.push_back(piece.tet); });
+  std::sort(tets.begin(), tets.end());
+  Vec3 open = Vec3::Zero();
+  double total = 0;
+  voronoi.visit(i, [&](const CellPiece& piece) {
+    for (const auto& face : piece.cell.faces()) {
+      if (face.label < 0 && piece.tet >= 0) {
+        const std::int32_t across = voronoi.body().across[piece.tet][-1 - face.label];
+        if (across >= 0 && (std::binary_search(tets.begin(), tets.end(), across) ||
+                            !on_bisector(voronoi, i, piece.cell, face)))
+          continue;
+      }
+      const Vec3 area = piece.cell.area(face);
+      open += area;
+      total += area.norm();
+    }
+  });
+  return total > 0 ? open.norm() / total : 0;
+}
+
 } // namespace
 
 CellMeasures measure_cells(const RestrictedVoronoi& voronoi) {
@@ -178,6 +217,8 @@ CellMeasures measure_cells(const RestrictedVoronoi& voronoi) {
     });
     if (total > 0)
       closure[i] = open.norm() / total;
+    if (closure[i] > 1e-13)
+      closure[i] = careful_closure(voronoi, i);
   });
   result.closure_error = max_of(n, 0, [&](std::int64_t i) { return closure[i]; });
   std::vector<std::int64_t> split;
