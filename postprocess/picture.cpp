@@ -34,17 +34,12 @@ const io::StoredFrame& chosen(const std::vector<io::StoredFrame>& frames, const 
   return *nearest;
 }
 
-std::string title_of(const Picture& picture) {
-  const std::string label = field_quantity(picture.field).label;
-  return picture.clip.empty() ? label : label + ", cut in the middle";
-}
-
 Drawing drawing_of(const Picture& picture, const std::vector<std::vector<io::StoredFrame>>& series,
                    const std::vector<std::string>& labels, const fs::path& output) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   Drawing drawing;
   drawing.file = fs::absolute(output / (picture.name + ".png")).string();
-  drawing.title = title_of(picture);
+  drawing.title = field_quantity(picture.field).label;
   drawing.field = picture.field;
   drawing.view = picture.view;
   drawing.minimum = picture.minimum.value_or(none);

@@ -130,7 +130,7 @@ std::vector<fs::path> draw_history(const fs::path& folder, const std::string& ti
   if (history.column("time_s").size() < 2)
     return {};
   RenderJob job;
-  Plot energies{fs::absolute(folder / "energies.png").string(), energy_charts(title, history)};
+  Plot energies{fs::absolute(folder / "energies.png").string(), energy_charts(title + ": energies", history)};
   Plot probes{fs::absolute(folder / "probes.png").string(), {}};
   for (const std::string& column : probe_columns(history))
     probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));

@@ -216,8 +216,10 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
   canvas.text({left + 155, (low + high) / 2}, titled(quantity.label, unit.name),
               {.size = 28, .anchor = Anchor::centre, .upwards = true});
   const auto extreme = [&](double value) { return fmt::format("{:.3g}", value * unit.factor); };
-  canvas.text({left, low - 40}, fmt::format("from {} to {}", extreme(range.low), extreme(range.high)),
-              {.size = 21, .width = bar_column - 20});
+  const std::string extremes = range.low == range.high
+                                   ? fmt::format("{} everywhere", extreme(range.low))
+                                   : fmt::format("from {} to {}", extreme(range.low), extreme(range.high));
+  canvas.text({left, low - 40}, extremes, {.size = 21, .width = bar_column - 20});
 }
 
 /// Short arrows of the coordinate axes.
@@ -286,7 +288,8 @@ std::string caption_of(const Panel& panel) {
 
 } // namespace
 
-void draw_particles(const Drawing& drawing) {
+void draw_particles(const Drawing& asked) {
+  Drawing drawing = asked;
   const Quantity quantity = field_quantity(drawing.field);
   std::vector<Body> bodies;
   for (const Panel& panel : drawing.panels)
@@ -294,6 +297,17 @@ void draw_particles(const Drawing& drawing) {
   const Range range = range_of(bodies);
   const bool plane = std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.plane; });
   const View view = view_of(plane ? "top" : drawing.view);
+  const auto cut = [](const Panel& panel) { return !panel.clip.empty(); };
+  if (plane && !std::all_of(drawing.panels.begin(), drawing.panels.end(), cut)) {
+    // There is no inside to be seen: the cut panel beside a whole one would repeat it.
+    for (std::size_t i = drawing.panels.size(); i-- > 0;)
+      if (cut(drawing.panels[i])) {
+        drawing.panels.erase(drawing.panels.begin() + static_cast<std::ptrdiff_t>(i));
+        bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+  } else if (!plane && std::all_of(drawing.panels.begin(), drawing.panels.end(), cut)) {
+    drawing.title += ", cut in the middle";
+  }
 
   std::vector<Eigen::AlignedBox3f> extents;
   std::vector<std::string> sizes;

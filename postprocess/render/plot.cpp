@@ -114,10 +114,12 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
 }
 
 /// Names of the curves to the right of the chart, where they hide nothing.
-void draw_legend(Canvas& canvas, const Chart& chart, double top) {
+void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) {
   const double left = width - legend_width + 20;
+  const double step = std::min(44.0, height / static_cast<double>(chart.curves.size()));
+  const int size = std::clamp(static_cast<int>(0.7 * step), 10, 25);
   double y = top - 110;
-  for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= 44) {
+  for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= step) {
     const Curve& curve = chart.curves[c];
     const Colour colour = curve_colour(static_cast<int>(c));
     if (curve.dots)
@@ -127,7 +129,7 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top) {
         canvas.line({left + part, y}, {left + part + 12, y}, colour, 5);
     else
       canvas.line({left, y}, {left + 54, y}, colour, 5);
-    canvas.text({left + 70, y}, curve.label, {.size = 25, .width = legend_width - 100.0});
+    canvas.text({left + 70, y}, curve.label, {.size = size, .width = legend_width - 100.0});
   }
 }
 
@@ -155,8 +157,11 @@ void draw_plot(const Plot& plot) {
     chart->SetSize(vtkRectf(60, 15, static_cast<float>(chart_width) - 80, chart_height - 95));
     canvas.text({chart_width / 2.0, low + chart_height - 45}, spec.title,
                 {.size = 32, .anchor = Anchor::centre, .bold = true, .width = chart_width - 40.0});
+    // VTK would set it into the numbers beside the axis.
+    canvas.text({32, low + chart_height / 2.0 - 20}, spec.y_title,
+                {.size = 28, .anchor = Anchor::centre, .upwards = true});
     if (legend)
-      draw_legend(canvas, spec, low + chart_height);
+      draw_legend(canvas, spec, low + chart_height, chart_height - 150);
     const vtkNew<vtkContextActor> actor;
     actor->GetScene()->AddItem(chart);
     actor->GetScene()->SetRenderer(&renderer);
