@@ -169,7 +169,8 @@ void fill_geometry(const TetBody& body, const Arranged& arranged, const CellMeas
   // The boundary is closed; what rounding leaves of the sum of A is spread over those that own area.
   const Vec3 open = sum(n, Vec3(Vec3::Zero()), [&](std::int64_t i) { return cloud.A[i]; });
   const double total = sum(n, 0.0, [&](std::int64_t i) { return cloud.A[i].norm(); });
-  for_each(n, [&](std::int64_t i) { cloud.A[i] -= open * (cloud.A[i].norm() / total); });
+  if (total > 0)
+    for_each(n, [&](std::int64_t i) { cloud.A[i] -= open * (cloud.A[i].norm() / total); });
 }
 
 void check_volume(const Quality& quality) {
@@ -203,7 +204,7 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
     particles = is_lattice ? arrange_lattice(domain, cad, body.scaling, spacing)
                            : arrange_two_pass(body, cad, count, request, progress);
   const Vec3 size = domain.upper - domain.lower;
-  require(!particles.X.empty(), "no particle fits into the body", "particles",
+  require(particles.X.size() >= 4, "fewer than four particles fit into the body", "particles",
           fmt::format("choose a spacing well below the body's size of {:.3g} x {:.3g} x {:.3g} m", size[0],
                       size[1], size[2]));
   particles.keep(hilbert_order(particles.scaled));

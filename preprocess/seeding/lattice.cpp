@@ -337,7 +337,9 @@ double lattice_spacing_for(const Domain& domain, const CadTopology& cad, std::in
         divisor_error = error;
       }
     }
-  return divisor > 0 && divisor_error <= std::max(0.02, best_error) ? divisor : best;
+  // A lattice with points on the faces is worth a slightly worse count where neither is within 2 %.
+  const double allowed = best_error <= 0.02 ? 0.02 : 2 * best_error;
+  return divisor > 0 && divisor_error <= allowed ? divisor : best;
 }
 
 } // namespace tessera::preprocess

@@ -186,6 +186,7 @@ TEST(Prepare, RefusesRequestsItCannotMeet) {
   refuses(both);
   refuses(lattice(std::nan("")));
   refuses(lattice(1e-4)); // a million million particles
+  refuses(lattice(5));    // one particle in the middle
   ParticleRequest far = voronoi(0);
   far.spacing = 10;
   refuses(far);
