@@ -17,7 +17,6 @@ class Document {
   /// it.
   Document(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
-  toml::table& root() { return root_; }
   const toml::table& root() const { return root_; }
   const std::filesystem::path& file() const { return file_; }
 

@@ -311,9 +311,10 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   }
   solver::validate(scene, result.where);
 
-  document->root()["geometry"].as_table()->insert_or_assign("file", result.geometry.file.string());
-  result.text = to_text(document->root());
-  result.cloud_text = cloud_part(document->root());
+  toml::table stored = document->root(); // a copy: the document's own nodes know where they were written
+  stored["geometry"].as_table()->insert_or_assign("file", result.geometry.file.string());
+  result.text = to_text(stored);
+  result.cloud_text = cloud_part(stored);
   return result;
 }
 

@@ -25,7 +25,7 @@ void compare(const Options& options) {
 
   std::string text = post::table(comparison) + fmt::format("\nin {}:", output.string());
   for (const auto& file : comparison.files)
-    text += " " + file.filename().string();
+    text += fmt::format(" {}", file.filename().string());
   std::ifstream stored(output / "compare.json");
   const std::string json{std::istreambuf_iterator<char>(stored), {}};
   console.result(text, json);

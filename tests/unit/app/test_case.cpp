@@ -102,6 +102,16 @@ TEST(Case, StoredTextReadsBackAsTheSameCase) {
   EXPECT_EQ(again.scene.end_time, c.scene.end_time);
 }
 
+TEST(Case, RemembersWhereKeysWereWritten) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("case.toml", complete_case);
+  const Case c = read_case(file, {"particles.seed=2"});
+  EXPECT_EQ(c.where("geometry.file"), file.string() + ":3:8");
+  EXPECT_EQ(c.where("wall.0.plane"), file.string() + ":21:9");
+  EXPECT_EQ(c.where("wall.0.restitution"), file.string() + ":20:1") << "absent: the table it belongs to";
+  EXPECT_EQ(c.where("particles.seed"), "--set particles.seed=2");
+}
+
 TEST(Case, CloudTextIsWhatTheParticlesDependOn) {
   const TemporaryFolder folder;
   const fs::path file = folder.file("case.toml", complete_case);

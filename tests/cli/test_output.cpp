@@ -1,0 +1,159 @@
+// Where results go: folders that cannot be used, full disks, machine output.
+
+#include "tests/cli/small_case.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include <filesystem>
+
+namespace tessera::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+TEST(Output, FolderThatCannotBeMade) {
+  const Workplace place;
+  write_small_case(place);
+  place.write("file", "not a folder");
+  expect_error(place.tessera({"run", "case.toml", "--quiet", "-o", "file/out"}), {"file/out"});
+  expect_error(place.tessera({"run", "case.toml", "--quiet", "-o", "file"}), {"file"});
+  expect_error(place.tessera({"prepare", "case.toml", "--quiet", "-o", "/proc/tessera"}), {"/proc/tessera"});
+}
+
+TEST(Output, SomebodyElsesFolderIsLeftAlone) {
+  const Workplace place;
+  write_small_case(place);
+  place.write("letters/dear.txt", "Dear");
+  const auto before = place.listing();
+  expect_error(place.tessera({"run", "case.toml", "--quiet", "-o", "letters"}),
+               {"not a run's", "letters", "-o"});
+  expect_error(place.tessera({"run", "case.toml", "--quiet", "-o", "."}), {"not a run's"});
+  EXPECT_EQ(place.listing(), before);
+  EXPECT_EQ(place.read("case.toml"), small_case);
+}
+
+TEST(Output, RunWritesWhatItPromises) {
+  const Workplace place;
+  write_small_case(place);
+  const Result result = place.tessera({"run", "case.toml", "--threads", "2", "-o", "out", "--cells"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("writing to out"), std::string::npos);
+  EXPECT_NE(result.err.find("xvfb"), std::string::npos) << "missing pictures are explained";
+  EXPECT_NE(result.out.find("225 particles"), std::string::npos) << result.out;
+  for (const char* name : {"case.toml", "cloud.vtp", "cells.vtu", "quality.json", "history.csv", "fields.pvd",
+                           "summary.json", "report.md"})
+    EXPECT_TRUE(fs::exists(place / "out" / name)) << name;
+
+  const Json summary = Json::parse(place.read("out/summary.json"));
+  for (const char* key : {"case",         "version",
+                          "formulation",  "scheme",
+                          "arrangement",  "subvolumes",
+                          "seed",         "dimension",
+                          "particles",    "neighbours_mean",
+                          "support",      "spacing",
+                          "steps",        "time",
+                          "dt_min",       "dt_max",
+                          "wall_seconds", "us_per_particle_step",
+                          "threads",      "bytes_per_particle",
+                          "volume_sum",   "energy",
+                          "momentum",     "max",
+                          "min",          "extent_min",
+                          "extent_max",   "probes"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_EQ(summary["particles"], 225);
+  EXPECT_EQ(summary["threads"], 2);
+  EXPECT_NEAR(summary["volume_sum"].get<double>(), 2e-6, 1e-18);
+  EXPECT_NEAR(summary["time"].get<double>(), 5e-6, 1e-18);
+  EXPECT_LT(summary["probes"]["length_m"].get<double>(), 0.02) << "the bar is shortened by the impact";
+  EXPECT_EQ(Json::parse(place.read("out/quality.json"))["particles"], 225);
+
+  // The folder is ours: the same command may run again, and the stored case alone repeats the run.
+  const std::string history = place.read("out/history.csv");
+  place.write("out/stale.png", "a picture of an earlier run");
+  const Result again = place.tessera({"run", "out/case.toml", "--quiet", "-o", "out"});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.out + again.err, "") << "--quiet says nothing";
+  EXPECT_EQ(place.read("out/history.csv"), history);
+  EXPECT_FALSE(fs::exists(place / "out" / "stale.png"));
+}
+
+TEST(Output, DefaultFolderIsNamedAfterTheCase) {
+  const Workplace place;
+  write_small_case(place);
+  fs::create_directories(place / "boxes");
+  fs::rename(place / "box.geo", place / "boxes" / "box.geo");
+  fs::rename(place / "case.toml", place / "boxes" / "fine.toml");
+  const Result result = place.tessera({"prepare", "boxes/fine.toml"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_TRUE(fs::exists(place / "runs" / "boxes-fine" / "cloud.vtp"));
+}
+
+TEST(Output, CheckWritesNothing) {
+  const Workplace place;
+  write_small_case(place);
+  const auto before = place.listing();
+  const Result text = place.tessera({"check", "case.toml", "--quiet"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  const Result json = place.tessera({"check", "case.toml", "--json", "--threads", "1"});
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(place.listing(), before);
+
+  const Json outlook = Json::parse(json.out);
+  EXPECT_EQ(outlook["particles"], 225);
+  EXPECT_NEAR(outlook["mass"].get<double>(), 8930 * 2e-6, 1e-12);
+  const double lambda = 117e9 * 0.35 / (1.35 * 0.3), mu = 117e9 / 2.7;
+  EXPECT_NEAR(outlook["wave_speed"].get<double>(), std::sqrt((lambda + 2 * mu) / 8930), 1e-6);
+  EXPECT_NEAR(outlook["upper"][2].get<double>(), 0.02, 1e-12);
+  EXPECT_GT(outlook["steps"].get<int>(), 5);
+}
+
+TEST(Output, JsonIsAllThereIsOnStandardOutput) {
+  const Workplace place;
+  write_small_case(place);
+  const auto parse = [](const Result& result) {
+    EXPECT_EQ(result.status, 0) << result.err;
+    return Json::parse(result.out, nullptr, false);
+  };
+  EXPECT_EQ(parse(place.tessera({"--json", "prepare", "case.toml", "-o", "a"}))["particles"], 225);
+  EXPECT_EQ(parse(place.tessera({"solve", "--json", "case.toml", "-o", "a"}))["particles"], 225);
+  EXPECT_EQ(parse(place.tessera({"run", "case.toml", "-o", "b", "--quiet", "--json"}))["particles"], 225);
+  EXPECT_TRUE(parse(place.tessera({"post", "a", "--json"})).is_array());
+  EXPECT_FALSE(parse(place.tessera({"compare", "a", "b", "-o", "c", "--json"})).is_discarded());
+  const Result failed =
+      place.tessera({"run", "case.toml", "--json", "--quiet", "-o", "d", "--set", "solver.cfl=-1"});
+  expect_error(failed, {"solver.cfl"});
+}
+
+TEST(Output, ResultThatCannotBePrintedIsAFailure) {
+  const Workplace place;
+  write_small_case(place);
+  Workplace::Surroundings full;
+  full.out_file = "/dev/full";
+  const Result result = place.tessera({"check", "case.toml", "--quiet", "--json"}, full);
+  expect_error(result, {"standard output"}, 1);
+}
+
+TEST(Output, FullDiskFailsTheRunInOneLine) {
+  const Workplace place;
+  write_small_case(place);
+  Workplace::Surroundings narrow;
+  narrow.largest_file = 65536; // room for the import and for small clouds
+  const Result at_once =
+      place.tessera({"run", "case.toml", "--quiet", "-o", "a", "--set", "particles.spacing=0.001"}, narrow);
+  expect_error(at_once, {"a/cloud.vtp"}, 1);
+  EXPECT_FALSE(fs::exists(place / "a" / "cloud.vtp")) << "no half-written file";
+
+  const Result later = place.tessera({"run", "case.toml", "--quiet", "-o", "b", "--set",
+                                      "output.history_rows=100000", "--set", "solver.end_time=1e-3"},
+                                     narrow);
+  expect_error(later, {"history.csv", "are kept in b", "tessera post b"}, 1);
+  EXPECT_FALSE(fs::exists(place / "b" / "summary.json"));
+  EXPECT_TRUE(fs::exists(place / "b" / "fields.pvd"));
+}
+
+} // namespace
+} // namespace tessera::cli
