@@ -27,7 +27,6 @@
 #include <charconv>
 #include <cstring>
 #include <limits>
-#include <new>
 
 namespace tessera::io {
 namespace {
@@ -241,9 +240,8 @@ ParticleCloud read_cloud(const fs::path& file) {
   reader->SetFileName(file.c_str());
   try {
     reader->Update();
-  } catch (const std::bad_alloc&) {
-    throw InputError("the file asks for more memory than there is: it is damaged or too large", origin,
-                     prepare_again);
+  } catch (const std::exception& error) { // sizes in the file that no memory holds
+    throw InputError(fmt::format("the file is damaged: {}", error.what()), origin, prepare_again);
   }
   require(messages.text().empty(), fmt::format("the file is damaged: {}", messages.last()), origin,
           prepare_again);

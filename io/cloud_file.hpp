@@ -1,4 +1,4 @@
-/// cloud.vtp: a ParticleCloud on disk, readable by ParaView.
+/// cloud.vtp: a ParticleCloud on disk, readable by ParaView; and the Voronoi cells.
 #pragma once
 
 #include "core/cell_mesh.hpp"
@@ -14,7 +14,8 @@ namespace tessera::io {
 /// refuses.
 void write_cloud(const ParticleCloud& cloud, const std::filesystem::path& file);
 
-/// InputError when the file is missing, truncated, not a cloud or of another format version.
+/// InputError when the file is missing, truncated, altered (its checksum disagrees), not a cloud or of
+/// another format version.
 ParticleCloud read_cloud(const std::filesystem::path& file);
 
 /// cells.vtu: polyhedra with arrays particle and volume.

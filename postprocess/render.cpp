@@ -69,8 +69,6 @@ std::string why_it_failed(const ChildResult& result, const fs::path& log) {
     return "xvfb-run could not be started";
   if (result.timed_out)
     return fmt::format("the renderer was stopped after {:.0f} s", time_limit);
-  if (result.exit_status == 0)
-    return "";
   const std::string last = last_line(log);
   return last.empty() ? fmt::format("the renderer ended with status {}", result.exit_status) : last;
 }
@@ -99,14 +97,14 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
                 time_limit, log, scratch.folder());
   if (result.interrupted)
     stop_if_interrupted("drawing");
-  for (const std::string& note : lines_after("note: ", log))
-    progress.note(note);
-  const std::string failure = why_it_failed(result, log);
-  if (!failure.empty())
-    progress.note(fmt::format("pictures are missing: {}", failure));
   std::vector<fs::path> written;
   for (const std::string& name : lines_after("file: ", log))
     written.emplace_back(name);
+  const std::vector<std::string> notes = lines_after("note: ", log);
+  for (const std::string& note : notes)
+    progress.note(note);
+  if (written.size() + notes.size() < job.drawings.size() + job.plots.size())
+    progress.note(fmt::format("pictures are missing: {}", why_it_failed(result, log)));
   return written;
 } catch (const std::exception& error) {
   // A picture never fails a run: only an interruption goes on to the caller.

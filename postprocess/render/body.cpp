@@ -1,6 +1,7 @@
 #include "postprocess/render/body.hpp"
 
 #include "core/error.hpp"
+#include "io/vtk_write.hpp"
 
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -31,6 +32,7 @@ vtkSmartPointer<vtkPointSet> points_of(const std::string& file) {
 }
 
 vtkSmartPointer<vtkPointSet> read_points(const std::string& file) {
+  io::require_complete(file);
   auto set = file.ends_with(".vtp") ? points_of<vtkXMLPolyDataReader>(file)
                                     : points_of<vtkXMLUnstructuredGridReader>(file);
   require(set && set->GetNumberOfPoints() > 0, "the file is damaged or holds no particles", file, "");

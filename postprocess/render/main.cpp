@@ -62,7 +62,8 @@ int main(int argc, char** argv) try {
     attempt(drawing.file, [&] { post::draw_particles(drawing); });
   for (const post::Plot& plot : job.plots)
     attempt(plot.file, [&] { post::draw_plot(plot); });
-  return 0;
+  // Everything is written; graphics drivers are known to leak or crash on the way out.
+  std::_Exit(0);
 } catch (const tessera::Error& error) {
   std::cerr << "error: " << error.what() << '\n';
   return static_cast<int>(error.status());
