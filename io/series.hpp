@@ -10,8 +10,10 @@
 
 namespace tessera::io {
 
-/// Writes each frame as fields/fields_NNNN.vtu (vertices, float32, LZ4; TimeValue as field data) and renews
-/// fields.pvd after each, both atomically, so that a run killed at any moment leaves a readable series.
+/// Writes each frame as fields/fields_NNNN.vtu (vertices at the current positions X + Displacement, so that
+/// viewers show the deformed body as it is; float32, LZ4; TimeValue as field data) and renews fields.pvd
+/// after each, both atomically, so that a run killed at any moment leaves a readable series. RunError when
+/// the disk refuses.
 class FrameSeries {
  public:
   /// Starts an empty series in `folder` (fields of an earlier run there are removed).
