@@ -5,10 +5,13 @@ namespace {
 
 std::string one_line(const std::string& what, const std::string& where, const std::string& remedy) {
   std::string line = what;
-  if (!where.empty()) line += ", " + where;
-  if (!remedy.empty()) line += ", " + remedy;
+  if (!where.empty())
+    line += ", " + where;
+  if (!remedy.empty())
+    line += ", " + remedy;
   for (char& c : line)
-    if (c == '\n' || c == '\r') c = ' ';
+    if (c == '\n' || c == '\r')
+      c = ' ';
   return line;
 }
 

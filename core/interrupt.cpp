@@ -24,11 +24,14 @@ void catch_interrupts() {
   std::signal(SIGTERM, on_signal);
 }
 
-bool interrupted() { return signal_seen != 0; }
+bool interrupted() {
+  return signal_seen != 0;
+}
 
 void stop_if_interrupted(const char* stage) {
   if (interrupted())
-    throw RunError(std::string("interrupted during ") + stage, "", "run the same command again to start it anew");
+    throw RunError(std::string("interrupted during ") + stage, "",
+                   "run the same command again to start it anew");
 }
 
 } // namespace tessera

@@ -1,7 +1,7 @@
 /// Loops over particles on all threads, with results that do not depend on how many there are.
 ///
-/// Every loop is an owner-computes gather (item i writes only what belongs to i). Sums run in blocks of fixed size
-/// whose partial sums are added in order, so one thread and many give the same bits.
+/// Every loop is an owner-computes gather (item i writes only what belongs to i). Sums run in blocks of fixed
+/// size whose partial sums are added in order, so one thread and many give the same bits.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,15 @@
 
 namespace tessera {
 
-/// Threads used by every loop from now on; n <= 0 means as many as OpenMP offers (OMP_NUM_THREADS, else all cores).
+/// Threads used by every loop from now on; n <= 0 means as many as OpenMP offers (OMP_NUM_THREADS, else all
+/// cores).
 void set_threads(int n);
 int threads();
 
-/// Calls f(i) for i in [0, n), in parallel. An exception thrown by f is rethrown here (the one of the lowest block).
-template <class F> void for_each(std::int64_t n, F&& f) {
+/// Calls f(i) for i in [0, n), in parallel. An exception thrown by f is rethrown here (the one of the lowest
+/// block).
+template <class F>
+void for_each(std::int64_t n, F&& f) {
   constexpr std::int64_t block = 256;
   const std::int64_t blocks = (n + block - 1) / block;
   std::exception_ptr failure;
@@ -26,7 +29,8 @@ template <class F> void for_each(std::int64_t n, F&& f) {
 #pragma omp parallel for schedule(static) num_threads(threads()) if (blocks > 1)
   for (std::int64_t b = 0; b < blocks; ++b) {
     try {
-      for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i) f(i);
+      for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
+        f(i);
     } catch (...) {
 #pragma omp critical(tessera_for_each)
       if (b < failed_block) {
@@ -35,11 +39,13 @@ template <class F> void for_each(std::int64_t n, F&& f) {
       }
     }
   }
-  if (failure) std::rethrow_exception(failure);
+  if (failure)
+    std::rethrow_exception(failure);
 }
 
 /// As for_each, for items of very uneven cost: small blocks handed out as threads become free.
-template <class F> void for_each_uneven(std::int64_t n, F&& f) {
+template <class F>
+void for_each_uneven(std::int64_t n, F&& f) {
   std::exception_ptr failure;
   std::int64_t failed = n;
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads()) if (n > 1)
@@ -54,35 +60,42 @@ template <class F> void for_each_uneven(std::int64_t n, F&& f) {
       }
     }
   }
-  if (failure) std::rethrow_exception(failure);
+  if (failure)
+    std::rethrow_exception(failure);
 }
 
 /// Combines f(0) ... f(n-1) by `combine` in fixed blocks of 1024 from `first`: same bits on any thread count.
-template <class T, class F, class Combine> T reduce(std::int64_t n, T first, F&& f, Combine&& combine) {
+template <class T, class F, class Combine>
+T reduce(std::int64_t n, T first, F&& f, Combine&& combine) {
   constexpr std::int64_t block = 1024;
   const std::int64_t blocks = (n + block - 1) / block;
   std::vector<T> partial(static_cast<std::size_t>(blocks), first);
 #pragma omp parallel for schedule(static) num_threads(threads()) if (blocks > 1)
   for (std::int64_t b = 0; b < blocks; ++b) {
     T sum = first;
-    for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i) sum = combine(sum, f(i));
+    for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
+      sum = combine(sum, f(i));
     partial[static_cast<std::size_t>(b)] = sum;
   }
   T total = first;
-  for (const T& part : partial) total = combine(total, part);
+  for (const T& part : partial)
+    total = combine(total, part);
   return total;
 }
 
 /// Sum of f(i) (a number or an Eigen vector) starting from `zero`.
-template <class T, class F> T sum(std::int64_t n, T zero, F&& f) {
+template <class T, class F>
+T sum(std::int64_t n, T zero, F&& f) {
   return reduce(n, zero, f, [](const T& a, const T& b) -> T { return a + b; });
 }
 
-template <class F> double max_of(std::int64_t n, double first, F&& f) {
+template <class F>
+double max_of(std::int64_t n, double first, F&& f) {
   return reduce(n, first, f, [](double a, double b) { return std::max(a, b); });
 }
 
-template <class F> double min_of(std::int64_t n, double first, F&& f) {
+template <class F>
+double min_of(std::int64_t n, double first, F&& f) {
   return reduce(n, first, f, [](double a, double b) { return std::min(a, b); });
 }
 

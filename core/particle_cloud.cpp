@@ -48,18 +48,22 @@ bool ParticleCloud::has_set(const std::string& name) const {
 
 const ParticleSet& ParticleCloud::set(const std::string& name) const {
   for (const ParticleSet& s : sets)
-    if (s.name == name) return s;
+    if (s.name == name)
+      return s;
   std::vector<std::string> names;
-  for (const ParticleSet& s : sets) names.push_back(s.name);
+  for (const ParticleSet& s : sets)
+    names.push_back(s.name);
   const std::string nearest = nearest_name(name, names);
   throw InputError(fmt::format("no particle set is named '{}'", name), "",
-                   fmt::format("{}the cloud has: {}", nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
+                   fmt::format("{}the cloud has: {}",
+                               nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
                                names.empty() ? "no sets" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
 void ParticleCloud::validate(const std::string& origin) const {
   const auto n = X.size();
-  require(dimension == 2 || dimension == 3, fmt::format("dimension {} is neither 2 nor 3", dimension), origin, "");
+  require(dimension == 2 || dimension == 3, fmt::format("dimension {} is neither 2 nor 3", dimension), origin,
+          "");
   require(n > 0, "the cloud has no particles", origin, "ask for a smaller spacing or a larger count");
   require(V.size() == n && A.size() == n && centroid.size() == n && cad_dimension.size() == n,
           "the cloud's arrays differ in length", origin, "prepare it again");
@@ -71,11 +75,12 @@ void ParticleCloud::validate(const std::string& origin) const {
   }
   for (const ParticleSet& s : sets) {
     require(s.area.empty() || s.area.size() == s.particles.size(),
-            fmt::format("set '{}' has {} particles but {} area vectors", s.name, s.particles.size(), s.area.size()),
+            fmt::format("set '{}' has {} particles but {} area vectors", s.name, s.particles.size(),
+                        s.area.size()),
             origin, "prepare the cloud again");
     for (std::int32_t i : s.particles)
-      require(i >= 0 && static_cast<std::size_t>(i) < n, fmt::format("set '{}' names particle {}", s.name, i), origin,
-              "prepare the cloud again");
+      require(i >= 0 && static_cast<std::size_t>(i) < n, fmt::format("set '{}' names particle {}", s.name, i),
+              origin, "prepare the cloud again");
   }
 }
 

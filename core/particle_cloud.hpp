@@ -13,25 +13,28 @@ namespace tessera {
 struct ParticleSet {
   std::string name;
   std::vector<std::int32_t> particles; ///< ascending, without repeats
-  /// This set's share of each listed particle's boundary area vector, m^2, outward; empty for sets without surface.
+  /// This set's share of each listed particle's boundary area vector, m^2, outward; empty for sets without
+  /// surface.
   std::vector<Vec3> area;
 };
 
-/// Particles in the reference configuration, SI units. In plane strain (dimension 2) z = 0, V is an area per unit
-/// thickness (m^2) and A a boundary length vector (m).
+/// Particles in the reference configuration, SI units. In plane strain (dimension 2) z = 0, V is an area per
+/// unit thickness (m^2) and A a boundary length vector (m).
 struct ParticleCloud {
   int dimension = 3;
-  double spacing = 0;       ///< lattice spacing, or (domain volume / particles)^(1/dimension) on irregular clouds, m
+  double spacing =
+      0; ///< lattice spacing, or (domain volume / particles)^(1/dimension) on irregular clouds, m
   double domain_volume = 0; ///< volume of the tessellated body, m^3; the V sum to it
   std::uint64_t seed = 0;   ///< of the random generator; 0 where nothing was random
   std::string arrangement;  ///< "lattice", "voronoi" or "poisson"
   std::string subvolumes;   ///< "voronoi" (exact clipped cells) or "uniform" (volume / particles)
 
-  std::vector<Vec3> X;                     ///< positions, m
-  std::vector<double> V;                   ///< subvolumes, m^3
-  std::vector<Vec3> A;                     ///< outward boundary area vectors, m^2; zero inside
-  std::vector<Vec3> centroid;              ///< of the subvolumes, m
-  std::vector<std::uint8_t> cad_dimension; ///< 0 corner, 1 edge, 2 face, 3 inside (2-D: 0 corner, 1 edge, 2 inside)
+  std::vector<Vec3> X;        ///< positions, m
+  std::vector<double> V;      ///< subvolumes, m^3
+  std::vector<Vec3> A;        ///< outward boundary area vectors, m^2; zero inside
+  std::vector<Vec3> centroid; ///< of the subvolumes, m
+  std::vector<std::uint8_t>
+      cad_dimension; ///< 0 corner, 1 edge, 2 face, 3 inside (2-D: 0 corner, 1 edge, 2 inside)
   std::vector<ParticleSet> sets;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
@@ -40,8 +43,8 @@ struct ParticleCloud {
   const ParticleSet& set(const std::string& name) const;
   bool has_set(const std::string& name) const;
 
-  /// Throws InputError naming `origin` unless all arrays agree in length, all numbers are finite, every V is positive
-  /// and every set's indices are in range.
+  /// Throws InputError naming `origin` unless all arrays agree in length, all numbers are finite, every V is
+  /// positive and every set's indices are in range.
   void validate(const std::string& origin) const;
 };
 

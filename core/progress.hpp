@@ -1,4 +1,5 @@
-/// What the program says while it works: one rewritten line with time left on a terminal, plain lines elsewhere.
+/// What the program says while it works: one rewritten line with time left on a terminal, plain lines
+/// elsewhere.
 #pragma once
 
 #include <chrono>
@@ -10,7 +11,7 @@
 namespace tessera {
 
 class Progress {
-public:
+ public:
   using Clock = std::function<double()>; ///< seconds since any fixed instant
 
   /// Writes to `out`; `terminal` says whether lines may be rewritten, `quiet` silences everything.
@@ -27,14 +28,14 @@ public:
   /// Starts a piece of work of `total` units (steps, cells, seconds...) under a label.
   void begin(std::string_view label, double total);
 
-  /// `done` of the units are done. Prints at most four times a second on a terminal, at each tenth of the work
-  /// (not more often than every two seconds) elsewhere.
+  /// `done` of the units are done. Prints at most four times a second on a terminal, at each tenth of the
+  /// work (not more often than every two seconds) elsewhere.
   void advance(double done, std::string_view detail = {});
 
   /// Ends the piece of work with a line that says how long it took.
   void finish(std::string_view detail = {});
 
-private:
+ private:
   void erase_line();
   std::ostream* out_;
   bool terminal_;

@@ -5,8 +5,10 @@
 
 namespace tessera {
 
-template <int D> using Vec = Eigen::Matrix<double, D, 1>;
-template <int D> using Mat = Eigen::Matrix<double, D, D>;
+template <int D>
+using Vec = Eigen::Matrix<double, D, 1>;
+template <int D>
+using Mat = Eigen::Matrix<double, D, D>;
 using Vec3 = Vec<3>;
 using Mat3 = Mat<3>;
 

@@ -12,7 +12,8 @@
 namespace tessera::solver {
 
 /// Acts on one named set.
-template <int D> struct Fixed {
+template <int D>
+struct Fixed {
   std::vector<std::int32_t> particles;
   std::array<bool, 3> component; ///< x, y, z
 
@@ -20,7 +21,8 @@ template <int D> struct Fixed {
   void apply(std::span<Vec<D>> p) const {
     for_each(static_cast<std::int64_t>(particles.size()), [&](std::int64_t i) {
       for (int c = 0; c < D; ++c)
-        if (component[c]) p[particles[i]][c] = 0;
+        if (component[c])
+          p[particles[i]][c] = 0;
     });
   }
 };

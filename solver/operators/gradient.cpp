@@ -16,14 +16,16 @@ constexpr double singular = 1e8;
 
 } // namespace
 
-template <int D> double condition_number(const Mat<D>& moment) {
+template <int D>
+double condition_number(const Mat<D>& moment) {
   const Eigen::SelfAdjointEigenSolver<Mat<D>> eigen(moment, Eigen::EigenvaluesOnly);
   const double smallest = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[D - 1];
   return smallest > 0 ? largest / smallest : std::numeric_limits<double>::infinity();
 }
 
 template <int D>
-Mat<D> moment_matrix(std::int64_t a, std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours) {
+Mat<D> moment_matrix(std::int64_t a, std::span<const Vec3> X, std::span<const double> V,
+                     const Neighbours& neighbours) {
   Mat<D> M = Mat<D>::Zero();
   for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
     const std::int32_t b = neighbours.column[e];
@@ -43,11 +45,11 @@ Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, c
     const Mat<D> M = moment_matrix<D>(a, X, V, neighbours);
     condition[a] = condition_number<D>(M);
     if (!(condition[a] < singular))
-      throw InputError(
-          fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours within {:.4g} m, which do not span {}",
-                      a, X[a][0], X[a][1], X[a][2], neighbours.count(a), neighbours.support[a],
-                      D == 3 ? "space" : "the plane"),
-          "", "raise solver.support or solver.neighbours");
+      throw InputError(fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours within "
+                                   "{:.4g} m, which do not span {}",
+                                   a, X[a][0], X[a][1], X[a][2], neighbours.count(a), neighbours.support[a],
+                                   D == 3 ? "space" : "the plane"),
+                       "", "raise solver.support or solver.neighbours");
     L[a] = M.inverse();
   });
 
@@ -73,8 +75,10 @@ Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, c
 
 template double condition_number<2>(const Mat<2>&);
 template double condition_number<3>(const Mat<3>&);
-template Mat<2> moment_matrix<2>(std::int64_t, std::span<const Vec3>, std::span<const double>, const Neighbours&);
-template Mat<3> moment_matrix<3>(std::int64_t, std::span<const Vec3>, std::span<const double>, const Neighbours&);
+template Mat<2> moment_matrix<2>(std::int64_t, std::span<const Vec3>, std::span<const double>,
+                                 const Neighbours&);
+template Mat<3> moment_matrix<3>(std::int64_t, std::span<const Vec3>, std::span<const double>,
+                                 const Neighbours&);
 template Gradient<2> build_gradient<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
 template Gradient<3> build_gradient<3>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
 

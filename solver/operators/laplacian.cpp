@@ -23,7 +23,8 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     Unknowns right = Unknowns::Zero();
     const auto basis = [](const Vec<D>& R) {
       Unknowns q;
-      for (int i = 0; i < D; ++i) q[i] = R[i];
+      for (int i = 0; i < D; ++i)
+        q[i] = R[i];
       q[D] = R.squaredNorm();
       return q;
     };
@@ -39,10 +40,11 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     right[D] += 2 * D;
     const Eigen::FullPivLU<System> lu(M);
     if (!(lu.rcond() > 1e-12))
-      throw InputError(fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few or too "
-                                   "regularly placed for a Laplacian",
-                                   a, X[a][0], X[a][1], X[a][2], neighbours.count(a)),
-                       "", "raise solver.support or solver.neighbours");
+      throw InputError(
+          fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few or too "
+                      "regularly placed for a Laplacian",
+                      a, X[a][0], X[a][1], X[a][2], neighbours.count(a)),
+          "", "raise solver.support or solver.neighbours");
     const Unknowns alpha_beta = lu.solve(right);
     double sum = 0;
     for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {

@@ -8,14 +8,16 @@
 
 namespace tessera::solver {
 
-/// (lap f)_a = sum_b (f_b - f_a) l_ab with l_ab = V_b (lap W + alpha_a . (X_a - X_b) + beta_a |X_a - X_b|^2), (3.67)-(3.70):
-/// zero on linear f, exact on |X|^2. Weights in 1/m^2, edge by edge in the order of Neighbours.
+/// (lap f)_a = sum_b (f_b - f_a) l_ab with l_ab = V_b (lap W + alpha_a . (X_a - X_b) + beta_a |X_a - X_b|^2),
+/// (3.67)-(3.70): zero on linear f, exact on |X|^2. Weights in 1/m^2, edge by edge in the order of
+/// Neighbours.
 struct Laplacian {
   std::vector<double> l;   ///< one an edge
   std::vector<double> sum; ///< one a particle: sum_b l_ab
 };
 
-/// Throws InputError naming the particle, its neighbour count and the remedy where the correction is singular.
+/// Throws InputError naming the particle, its neighbour count and the remedy where the correction is
+/// singular.
 template <int D>
 Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours);
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Particles sorted into cubic cells; cells hold their particles in ascending order.
 class CellGrid {
-public:
+ public:
   CellGrid(std::span<const Vec3> X, double cell) : X_(X), cell_(cell) {
     lower_ = Vec3::Constant(std::numeric_limits<double>::infinity());
     Vec3 upper = -lower_;
@@ -24,25 +24,31 @@ public:
     const auto most = static_cast<double>(4 * X.size() + 64);
     const auto cells_at = [&](double size) {
       double product = 1;
-      for (int i = 0; i < 3; ++i) product *= std::floor((upper[i] - lower_[i]) / size) + 1;
+      for (int i = 0; i < 3; ++i)
+        product *= std::floor((upper[i] - lower_[i]) / size) + 1;
       return product;
     };
-    while (cells_at(cell_) > most) cell_ *= 1.26;
-    for (int i = 0; i < 3; ++i) cells_[i] = static_cast<std::int64_t>((upper[i] - lower_[i]) / cell_) + 1;
+    while (cells_at(cell_) > most)
+      cell_ *= 1.26;
+    for (int i = 0; i < 3; ++i)
+      cells_[i] = static_cast<std::int64_t>((upper[i] - lower_[i]) / cell_) + 1;
     start_.assign(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2] + 1), 0);
     std::vector<std::int64_t> home(X.size());
     for (std::size_t i = 0; i < X.size(); ++i) {
       home[i] = index(cell_of(X[i]));
       ++start_[home[i] + 1];
     }
-    for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
+    for (std::size_t c = 1; c < start_.size(); ++c)
+      start_[c] += start_[c - 1];
     particles_.resize(X.size());
     std::vector<std::int64_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t i = 0; i < X.size(); ++i) particles_[next[home[i]]++] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < X.size(); ++i)
+      particles_[next[home[i]]++] = static_cast<std::int32_t>(i);
   }
 
   /// Calls visit(b, distance) for every particle b in the cells that the ball about x touches.
-  template <class Visit> void near(const Vec3& x, double radius, Visit&& visit) const {
+  template <class Visit>
+  void near(const Vec3& x, double radius, Visit&& visit) const {
     const auto low = cell_of(x - Vec3::Constant(radius)), high = cell_of(x + Vec3::Constant(radius));
     for (std::int64_t k = low[2]; k <= high[2]; ++k)
       for (std::int64_t j = low[1]; j <= high[1]; ++j)
@@ -53,7 +59,7 @@ public:
         }
   }
 
-private:
+ private:
   using Index = std::array<std::int64_t, 3>;
   Index cell_of(const Vec3& x) const {
     Index c;
@@ -80,7 +86,8 @@ Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support)
   const CellGrid grid(X, largest);
   const auto each_neighbour = [&](std::int64_t a, auto&& visit) {
     grid.near(X[a], largest, [&](std::int32_t b, double r) {
-      if (b != a && r < std::max(support[a], support[b])) visit(b);
+      if (b != a && r < std::max(support[a], support[b]))
+        visit(b);
     });
   };
 
@@ -91,7 +98,8 @@ Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support)
     each_neighbour(a, [&](std::int32_t) { ++count; });
     result.row[a + 1] = count;
   });
-  for (std::int64_t a = 0; a < n; ++a) result.row[a + 1] += result.row[a];
+  for (std::int64_t a = 0; a < n; ++a)
+    result.row[a + 1] += result.row[a];
   result.column.resize(static_cast<std::size_t>(result.row[n]));
   for_each(n, [&](std::int64_t a) {
     std::int64_t next = result.row[a];
@@ -127,9 +135,11 @@ std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k) {
     for (double radius = guess;; radius *= 1.5) {
       near.clear();
       grid.near(X[a], radius, [&](std::int32_t b, double r) {
-        if (b != a && r <= radius) near.push_back(r);
+        if (b != a && r <= radius)
+          near.push_back(r);
       });
-      if (near.size() < static_cast<std::size_t>(k)) continue;
+      if (near.size() < static_cast<std::size_t>(k))
+        continue;
       std::nth_element(near.begin(), near.begin() + (k - 1), near.end());
       distance[a] = near[k - 1];
       return;

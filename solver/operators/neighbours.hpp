@@ -9,8 +9,8 @@
 
 namespace tessera::solver {
 
-/// Compressed rows: the neighbours of particle a are column[row[a]] ... column[row[a + 1] - 1], ascending, a excluded.
-/// b is a neighbour of a exactly when a is one of b: |X_a - X_b| < max(support_a, support_b).
+/// Compressed rows: the neighbours of particle a are column[row[a]] ... column[row[a + 1] - 1], ascending, a
+/// excluded. b is a neighbour of a exactly when a is one of b: |X_a - X_b| < max(support_a, support_b).
 struct Neighbours {
   std::vector<std::int64_t> row;
   std::vector<std::int32_t> column;

@@ -15,12 +15,13 @@ Neighbours uniform_support(std::span<const Vec3> X, double radius) {
 template <int D>
 Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours) {
   require(static_cast<std::size_t>(neighbours) < X.size(),
-          fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()), "solver.neighbours",
-          "ask for fewer, or for more particles");
+          fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()),
+          "solver.neighbours", "ask for fewer, or for more particles");
   constexpr double ill_conditioned = 1e3;
   // The kernel vanishes at its radius: a little beyond the last neighbour, so that it counts.
   std::vector<double> support = distance_to_nearest(X, neighbours);
-  for (double& radius : support) radius *= 1.02;
+  for (double& radius : support)
+    radius *= 1.02;
   for (int round = 0; round < 10; ++round) {
     Neighbours found = find_neighbours(X, support);
     std::vector<std::uint8_t> grow(X.size(), 0);
@@ -33,7 +34,8 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
         support[a] *= 1.1;
         any = true;
       }
-    if (!any) return found;
+    if (!any)
+      return found;
   }
   return find_neighbours(X, std::move(support)); // build_gradient names the particle that is still singular
 }

@@ -12,8 +12,9 @@ namespace tessera::solver {
 /// The same radius for every particle.
 Neighbours uniform_support(std::span<const Vec3> X, double radius);
 
-/// Each particle's smallest radius that holds `neighbours` others and whose moment matrix is conditioned better than
-/// 1e3 (the radius grows by tenths until it is). InputError when the cloud has not that many particles.
+/// Each particle's smallest radius that holds `neighbours` others and whose moment matrix is conditioned
+/// better than 1e3 (the radius grows by tenths until it is). InputError when the cloud has not that many
+/// particles.
 template <int D>
 Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours);
 

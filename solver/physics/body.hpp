@@ -22,25 +22,29 @@ struct Breakdown {
   double J; ///< det F at the particle; not positive, or positive where another field is not finite
 };
 
-template <int D, class Law, class Dissipation> class Body {
-public:
+template <int D, class Law, class Dissipation>
+class Body {
+ public:
   using Formulation = PF<D>;
   static constexpr int dimension = D;
 
-  Body(std::vector<Vec<D>> X, std::vector<double> subvolumes, double reference_density, double pressure_wave_speed,
-       const Law& material_law, Neighbours graph, Gradient<D> gradient_weights, Dissipation jst)
-      : V(std::move(subvolumes)), density(reference_density), wave_speed(pressure_wave_speed), law(material_law),
-        neighbours(std::move(graph)), gradient(std::move(gradient_weights)), dissipation(std::move(jst)),
-        U(X.size()), R(X.size()), history(X.size()), P(X.size(), Mat<D>::Zero()), T(X.size(), Vec<D>::Zero()),
-        stretch(X.size(), 1.0) {
+  Body(std::vector<Vec<D>> X, std::vector<double> subvolumes, double reference_density,
+       double pressure_wave_speed, const Law& material_law, Neighbours graph, Gradient<D> gradient_weights,
+       Dissipation jst)
+      : V(std::move(subvolumes)), density(reference_density), wave_speed(pressure_wave_speed),
+        law(material_law), neighbours(std::move(graph)), gradient(std::move(gradient_weights)),
+        dissipation(std::move(jst)), U(X.size()), R(X.size()), history(X.size()), P(X.size(), Mat<D>::Zero()),
+        T(X.size(), Vec<D>::Zero()), stretch(X.size(), 1.0) {
     U.x = std::move(X);
-    if constexpr (Dissipation::active) dissipation.lap_p.assign(V.size(), Vec<D>::Zero());
+    if constexpr (Dissipation::active)
+      dissipation.lap_p.assign(V.size(), Vec<D>::Zero());
     commit();
   }
 
   std::int64_t size() const { return static_cast<std::int64_t>(V.size()); }
 
-  /// R = rates of U: dF/dt = G = grad v, dx/dt = v, dp/dt = T + D, with T alone kept beside it. P must belong to U.
+  /// R = rates of U: dF/dt = G = grad v, dx/dt = v, dp/dt = T + D, with T alone kept beside it. P must belong
+  /// to U.
   void rates() {
     strain_rates();
     momentum_rates();
@@ -55,7 +59,8 @@ public:
     });
   }
 
-  /// The step is over: the history advances to U, P and the stretches follow. Throws Breakdown, before any change.
+  /// The step is over: the history advances to U, P and the stretches follow. Throws Breakdown, before any
+  /// change.
   void commit() {
     check();
     for_each(size(), [&](std::int64_t a) {
@@ -64,7 +69,8 @@ public:
     });
   }
 
-  /// Largest pressure wave speed as the body is deformed: the undeformed one over the smallest stretch, (3.93), m/s.
+  /// Largest pressure wave speed as the body is deformed: the undeformed one over the smallest stretch,
+  /// (3.93), m/s.
   double fastest_wave() const {
     return wave_speed / min_of(size(), 1.0, [&](std::int64_t a) { return stretch[a]; });
   }
@@ -87,7 +93,7 @@ public:
   std::vector<Vec<D>> T;                      ///< divergence of P alone, N/m^3
   std::vector<double> stretch;                ///< smallest principal stretch at the last commit
 
-private:
+ private:
   Mat<D> piola(std::int64_t a, typename Law::History& memory) const {
     return law.piola(strain(a), memory).template topLeftCorner<D, D>();
   }
@@ -95,7 +101,8 @@ private:
   void check() const {
     for_each(size(), [&](std::int64_t a) {
       const double J = U.F[a].determinant();
-      if (!(J > 0) || !std::isfinite(J) || !U.p[a].allFinite()) throw Breakdown{a, J};
+      if (!(J > 0) || !std::isfinite(J) || !U.p[a].allFinite())
+        throw Breakdown{a, J};
     });
   }
 
@@ -104,15 +111,19 @@ private:
     for_each(size(), [&](std::int64_t a) {
       Mat<D> G = -U.p[a] * gradient.s[a].transpose();
       Vec<D> lap_p = Vec<D>::Zero();
-      if constexpr (Dissipation::active) lap_p = -dissipation.laplacian.sum[a] * U.p[a];
+      if constexpr (Dissipation::active)
+        lap_p = -dissipation.laplacian.sum[a] * U.p[a];
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const Vec<D>& p_b = U.p[neighbours.column[e]];
-        for (int c = 0; c < D; ++c) G.col(c) += gradient.w[e][c] * p_b;
-        if constexpr (Dissipation::active) lap_p += dissipation.laplacian.l[e] * p_b;
+        for (int c = 0; c < D; ++c)
+          G.col(c) += gradient.w[e][c] * p_b;
+        if constexpr (Dissipation::active)
+          lap_p += dissipation.laplacian.l[e] * p_b;
       }
       R.F[a] = G / density;
       R.x[a] = U.p[a] / density;
-      if constexpr (Dissipation::active) dissipation.lap_p[a] = lap_p;
+      if constexpr (Dissipation::active)
+        dissipation.lap_p[a] = lap_p;
     });
   }
 
@@ -121,11 +132,13 @@ private:
     for_each(size(), [&](std::int64_t a) {
       Vec<D> divergence = P[a] * gradient.s[a];
       Vec<D> lap_lap_p = Vec<D>::Zero();
-      if constexpr (Dissipation::active) lap_lap_p = -dissipation.laplacian.sum[a] * dissipation.lap_p[a];
+      if constexpr (Dissipation::active)
+        lap_lap_p = -dissipation.laplacian.sum[a] * dissipation.lap_p[a];
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const std::int32_t b = neighbours.column[e];
         divergence += P[b] * gradient.t[e];
-        if constexpr (Dissipation::active) lap_lap_p += dissipation.laplacian.l[e] * dissipation.lap_p[b];
+        if constexpr (Dissipation::active)
+          lap_lap_p += dissipation.laplacian.l[e] * dissipation.lap_p[b];
       }
       T[a] = divergence;
       R.p[a] = divergence;

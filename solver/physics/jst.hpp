@@ -8,9 +8,10 @@
 
 namespace tessera::solver {
 
-/// Fourth-order term D4 = -kappa4 c Delta^3 lap(lap p), with c the local pressure wave speed and Delta the smallest
-/// particle distance.
-template <int D> struct Jst {
+/// Fourth-order term D4 = -kappa4 c Delta^3 lap(lap p), with c the local pressure wave speed and Delta the
+/// smallest particle distance.
+template <int D>
+struct Jst {
   static constexpr bool active = true;
 
   Laplacian laplacian;

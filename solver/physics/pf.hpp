@@ -9,7 +9,8 @@
 namespace tessera::solver {
 
 /// Linear momentum, deformation gradient and position of every particle; also the type of their rates.
-template <int D> struct PF {
+template <int D>
+struct PF {
   static constexpr int dimension = D;
   static constexpr const char* name = "pF";
 

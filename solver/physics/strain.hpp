@@ -7,8 +7,8 @@ namespace tessera::solver {
 
 /// Deformation gradient, its cofactor and its determinant: independent where a formulation evolves them.
 struct Strain {
-  Mat3 F; ///< fibre map
-  Mat3 H; ///< area map
+  Mat3 F;   ///< fibre map
+  Mat3 H;   ///< area map
   double J; ///< volume map
 
   /// H and J taken from F.
@@ -19,7 +19,9 @@ struct Strain {
 };
 
 /// F in three dimensions: plane strain leaves the thickness as it is.
-inline Mat3 embed(const Mat<3>& F) { return F; }
+inline Mat3 embed(const Mat<3>& F) {
+  return F;
+}
 inline Mat3 embed(const Mat<2>& F) {
   Mat3 F3 = Mat3::Identity();
   F3.topLeftCorner<2, 2>() = F;

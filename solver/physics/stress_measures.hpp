@@ -8,10 +8,14 @@
 namespace tessera::solver {
 
 /// Cauchy stress P F^T / J, Pa.
-inline Mat3 cauchy(const Mat3& P, const Mat3& F, double J) { return P * F.transpose() / J; }
+inline Mat3 cauchy(const Mat3& P, const Mat3& F, double J) {
+  return P * F.transpose() / J;
+}
 
 /// tr(sigma) / 3, Pa: positive in tension.
-inline double pressure(const Mat3& sigma) { return sigma.trace() / 3; }
+inline double pressure(const Mat3& sigma) {
+  return sigma.trace() / 3;
+}
 
 /// sqrt(3/2) |dev sigma|, Pa.
 inline double von_mises(const Mat3& sigma) {
@@ -19,7 +23,8 @@ inline double von_mises(const Mat3& sigma) {
 }
 
 /// Smallest principal stretch of F: square root of the smallest eigenvalue of F^T F.
-template <int D> double smallest_stretch(const Mat<D>& F) {
+template <int D>
+double smallest_stretch(const Mat<D>& F) {
   Eigen::SelfAdjointEigenSolver<Mat<D>> eigen;
   eigen.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));

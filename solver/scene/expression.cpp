@@ -22,8 +22,9 @@ Expression::Expression(const std::string& formula) : parser_(std::make_shared<Pa
     parser_->parser.SetExpr(formula);
     parser_->parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    throw InputError(fmt::format("the formula \"{}\" cannot be read at position {}", formula, error.GetPos() + 1), "",
-                     error.GetMsg());
+    throw InputError(
+        fmt::format("the formula \"{}\" cannot be read at position {}", formula, error.GetPos() + 1), "",
+        error.GetMsg());
   }
 }
 
@@ -33,8 +34,9 @@ double Expression::operator()(const Vec3& X) const {
   parser_->Z = X[2];
   const double value = parser_->parser.Eval();
   if (!std::isfinite(value))
-    throw InputError(fmt::format("the formula \"{}\" is {} at ({:g}, {:g}, {:g})", formula_, value, X[0], X[1], X[2]),
-                     "", "formulas must be finite at every particle they apply to");
+    throw InputError(
+        fmt::format("the formula \"{}\" is {} at ({:g}, {:g}, {:g})", formula_, value, X[0], X[1], X[2]), "",
+        "formulas must be finite at every particle they apply to");
   return value;
 }
 

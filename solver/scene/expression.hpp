@@ -8,17 +8,17 @@
 
 namespace tessera::solver {
 
-/// Variables X, Y, Z in metres; constants _pi and _e; muParser's functions. Copies share one parsed formula, so one
-/// object must not be evaluated from several threads at once.
+/// Variables X, Y, Z in metres; constants _pi and _e; muParser's functions. Copies share one parsed formula,
+/// so one object must not be evaluated from several threads at once.
 class Expression {
-public:
+ public:
   /// Parses and tries the formula; InputError with the position of the fault.
   explicit Expression(const std::string& formula);
 
   double operator()(const Vec3& X) const;
   const std::string& formula() const { return formula_; }
 
-private:
+ private:
   struct Parser;
   std::shared_ptr<Parser> parser_;
   std::string formula_;

@@ -16,19 +16,23 @@ namespace tessera::solver {
 
 /// Arrays of a frame, kept from one to the next; three components in plane strain too.
 class FrameArrays {
-public:
-  template <class Body> void fill(const Body& body, const ParticleCloud& cloud) {
+ public:
+  template <class Body>
+  void fill(const Body& body, const ParticleCloud& cloud) {
     constexpr int D = Body::dimension;
     const auto n = static_cast<std::size_t>(body.size());
-    for (auto* vector : {&displacement_, &velocity_}) vector->assign(3 * n, 0.0);
-    for (auto* scalar : {&pressure_, &von_mises_, &plastic_strain_, &jacobian_, &id_}) scalar->resize(n);
+    for (auto* vector : {&displacement_, &velocity_})
+      vector->assign(3 * n, 0.0);
+    for (auto* scalar : {&pressure_, &von_mises_, &plastic_strain_, &jacobian_, &id_})
+      scalar->resize(n);
     stress_.resize(6 * n);
     for_each(body.size(), [&](std::int64_t a) {
       for (int c = 0; c < D; ++c) {
         displacement_[3 * a + c] = body.U.x[a][c] - cloud.X[a][c];
         velocity_[3 * a + c] = body.velocity(a)[c];
       }
-      // The law is asked again for all nine components: in plane strain the body keeps only those of the plane.
+      // The law is asked again for all nine components: in plane strain the body keeps only those of the
+      // plane.
       auto memory = body.history[a];
       const Strain strain = body.strain(a);
       const Mat3 sigma = cauchy(body.law.piola(strain, memory), strain.F, strain.J);
@@ -37,13 +41,16 @@ public:
       plastic_strain_[a] = body.law.equivalent_plastic_strain(body.history[a]);
       jacobian_[a] = strain.J;
       id_[a] = static_cast<double>(a);
-      const double components[6] = {sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2)};
+      const double components[6] = {sigma(0, 0), sigma(1, 1), sigma(2, 2),
+                                    sigma(0, 1), sigma(1, 2), sigma(0, 2)};
       std::copy(components, components + 6, stress_.begin() + 6 * a);
     });
   }
 
   Frame frame(double time, std::int64_t step, const ParticleCloud& cloud) const {
-    return {time, step, cloud.X,
+    return {time,
+            step,
+            cloud.X,
             {{"Displacement", 3, displacement_},
              {"Velocity", 3, velocity_},
              {"Pressure", 1, pressure_},
@@ -74,29 +81,35 @@ public:
     }
   }
 
-private:
-  std::vector<double> displacement_, velocity_, pressure_, von_mises_, plastic_strain_, stress_, jacobian_, id_;
+ private:
+  std::vector<double> displacement_, velocity_, pressure_, von_mises_, plastic_strain_, stress_, jacobian_,
+      id_;
 };
 
-/// Energies of the body and of the ledger. `total` is what must stay as it was: kinetic + internal + plastic +
-/// dissipated - external.
-template <class Body> Energies energies(const Body& body, const Step<Body>& ledger) {
+/// Energies of the body and of the ledger. `total` is what must stay as it was: kinetic + internal + plastic
+/// + dissipated - external.
+template <class Body>
+Energies energies(const Body& body, const Step<Body>& ledger) {
   using Sums = Eigen::Vector3d;
   const Sums sums = sum(body.size(), Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
     return body.V[a] * Sums(body.U.p[a].squaredNorm() / (2 * body.density),
-                            body.law.energy(body.strain(a), body.history[a]), body.law.plastic_work(body.history[a]));
+                            body.law.energy(body.strain(a), body.history[a]),
+                            body.law.plastic_work(body.history[a]));
   });
   return {sums[0], sums[1], sums[2], ledger.dissipated(), ledger.external(), 0};
 }
 
-inline double total(const Energies& e) { return e.kinetic + e.internal + e.plastic + e.dissipated - e.external; }
+inline double total(const Energies& e) {
+  return e.kinetic + e.internal + e.plastic + e.dissipated - e.external;
+}
 
 /// Linear momentum sum V p (kg m/s) and angular momentum sum V x cross p about the origin (kg m^2/s).
 struct Momenta {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
 };
 
-template <class Body> Momenta momenta(const Body& body) {
+template <class Body>
+Momenta momenta(const Body& body) {
   using Sums = Eigen::Matrix<double, 6, 1>;
   const Sums sums = sum(body.size(), Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
     Vec3 x = Vec3::Zero(), p = Vec3::Zero();

@@ -15,7 +15,9 @@ struct Quantity {
   double (*value)(const ProbeFields&, std::int32_t);
 };
 
-double position(const ProbeFields& f, std::int32_t a, int c) { return f.X[a][c] + f.displacement[3 * a + c]; }
+double position(const ProbeFields& f, std::int32_t a, int c) {
+  return f.X[a][c] + f.displacement[3 * a + c];
+}
 
 constexpr std::array<Quantity, 13> quantities = {{
     {"x", "_m", [](const ProbeFields& f, std::int32_t a) { return position(f, a, 0); }},
@@ -44,7 +46,8 @@ std::size_t index_of(const std::string& name) {
 const std::vector<std::string>& probe_quantities() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
-    for (const Quantity& q : quantities) list.emplace_back(q.name);
+    for (const Quantity& q : quantities)
+      list.emplace_back(q.name);
     return list;
   }();
   return names;
@@ -55,7 +58,9 @@ const std::vector<std::string>& probe_reductions() {
   return names;
 }
 
-std::string column_name(const Probe& probe) { return probe.name + quantities.at(index_of(probe.quantity)).unit; }
+std::string column_name(const Probe& probe) {
+  return probe.name + quantities.at(index_of(probe.quantity)).unit;
+}
 
 ProbeReader::ProbeReader(const Probe& probe, const ParticleCloud& cloud)
     : quantity_(index_of(probe.quantity)), reduce_(probe.reduce) {
@@ -75,9 +80,12 @@ double ProbeReader::read(const ProbeFields& fields) const {
     high = std::max(high, value);
     total += value;
   }
-  if (reduce_ == "max") return high;
-  if (reduce_ == "min") return low;
-  if (reduce_ == "extent") return high - low;
+  if (reduce_ == "max")
+    return high;
+  if (reduce_ == "min")
+    return low;
+  if (reduce_ == "extent")
+    return high - low;
   return total / static_cast<double>(particles_.size());
 }
 

@@ -12,7 +12,7 @@ namespace tessera::solver {
 
 /// What a probe may look at: one entry a particle, three components in plane strain too.
 struct ProbeFields {
-  std::span<const Vec3> X;            ///< m
+  std::span<const Vec3> X;                        ///< m
   std::span<const double> displacement, velocity; ///< particles x 3, m and m/s
   std::span<const double> plastic_strain, von_mises, pressure;
 };
@@ -26,12 +26,12 @@ std::string column_name(const Probe& probe);
 
 /// A probe bound to its particles.
 class ProbeReader {
-public:
+ public:
   /// InputError when the cloud has no such set.
   ProbeReader(const Probe& probe, const ParticleCloud& cloud);
   double read(const ProbeFields& fields) const;
 
-private:
+ private:
   std::size_t quantity_;
   std::string reduce_;
   std::vector<std::int32_t> particles_;

@@ -18,12 +18,16 @@ double seconds_now() {
 }
 
 /// Hands out frames and history rows as their times come; output never changes a step's length.
-template <class Body> class Reporter {
-public:
-  Reporter(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, const Assembly<Body>& assembly)
+template <class Body>
+class Reporter {
+ public:
+  Reporter(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
+           const Assembly<Body>& assembly)
       : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly) {
-    for (const Probe& probe : scene.probes) probes_.emplace_back(probe, cloud);
-    if (outputs.history_columns) outputs.history_columns(columns());
+    for (const Probe& probe : scene.probes)
+      probes_.emplace_back(probe, cloud);
+    if (outputs.history_columns)
+      outputs.history_columns(columns());
     const Momenta start = momenta(assembly.body);
     const Vec3 centre = mean_position();
     momenta_start_ = start;
@@ -51,8 +55,10 @@ public:
 
   /// The state as it is now, whether due or not.
   void last(double time, std::int64_t step, double dt) {
-    if (step != last_row_) report(time, step, dt);
-    if (step != last_frame_) frame(time, step);
+    if (step != last_row_)
+      report(time, step, dt);
+    if (step != last_frame_)
+      frame(time, step);
   }
 
   void summarise(Summary& summary) {
@@ -64,17 +70,30 @@ public:
     summary.linear_drift = relative((now.linear - momenta_start_.linear).norm(), linear_scale_);
     summary.angular_drift = relative((now.angular - momenta_start_.angular).norm(), angular_scale_);
     for (std::size_t i = 0; i < probes_.size(); ++i)
-      summary.probes.emplace_back(column_name(scene_.probes[i]), probes_[i].read(arrays_.probe_fields(cloud_)));
+      summary.probes.emplace_back(column_name(scene_.probes[i]),
+                                  probes_[i].read(arrays_.probe_fields(cloud_)));
   }
 
-private:
+ private:
   std::vector<std::string> columns() const {
-    std::vector<std::string> names = {
-        "time_s",       "step",       "dt_s",    "kinetic_J",     "internal_J",
-        "plastic_J",    "dissipated_J", "external_J", "total_J",  "balance_error",
-        "linear_momentum_x_kgm_s",   "linear_momentum_y_kgm_s",   "linear_momentum_z_kgm_s",
-        "angular_momentum_x_kgm2_s", "angular_momentum_y_kgm2_s", "angular_momentum_z_kgm2_s"};
-    for (const Probe& probe : scene_.probes) names.push_back(column_name(probe));
+    std::vector<std::string> names = {"time_s",
+                                      "step",
+                                      "dt_s",
+                                      "kinetic_J",
+                                      "internal_J",
+                                      "plastic_J",
+                                      "dissipated_J",
+                                      "external_J",
+                                      "total_J",
+                                      "balance_error",
+                                      "linear_momentum_x_kgm_s",
+                                      "linear_momentum_y_kgm_s",
+                                      "linear_momentum_z_kgm_s",
+                                      "angular_momentum_x_kgm2_s",
+                                      "angular_momentum_y_kgm2_s",
+                                      "angular_momentum_z_kgm2_s"};
+    for (const Probe& probe : scene_.probes)
+      names.push_back(column_name(probe));
     return names;
   }
 
@@ -94,7 +113,8 @@ private:
     energy_ = energies(assembly_.body, assembly_.step);
     largest_ = std::max(largest_, energy_.kinetic + energy_.internal + energy_.plastic);
     energy_.balance_error = largest_ > 0 ? std::abs(total(energy_) - total_start_) / largest_ : 0;
-    if (!outputs_.history_row) return;
+    if (!outputs_.history_row)
+      return;
     const Momenta m = momenta(assembly_.body);
     std::vector<double> row = {time,
                                static_cast<double>(step),
@@ -110,14 +130,16 @@ private:
     row.insert(row.end(), m.angular.begin(), m.angular.end());
     if (!probes_.empty()) {
       arrays_.fill(assembly_.body, cloud_);
-      for (const ProbeReader& probe : probes_) row.push_back(probe.read(arrays_.probe_fields(cloud_)));
+      for (const ProbeReader& probe : probes_)
+        row.push_back(probe.read(arrays_.probe_fields(cloud_)));
     }
     outputs_.history_row(row);
   }
 
   void frame(double time, std::int64_t step) {
     last_frame_ = step;
-    if (!outputs_.frame) return;
+    if (!outputs_.frame)
+      return;
     arrays_.fill(assembly_.body, cloud_);
     outputs_.frame(arrays_.frame(time, step, cloud_));
   }
@@ -137,8 +159,8 @@ private:
 };
 
 template <class Body>
-Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress,
-                     Assembly<Body>& assembly) {
+Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
+                     Progress& progress, Assembly<Body>& assembly) {
   auto& [body, step, distance] = assembly;
   double dt = stable_step(body, scene.cfl, distance);
   step.start(body, dt);
@@ -162,7 +184,8 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
     const bool last = time + dt >= scene.end_time;
-    if (last) dt = scene.end_time - time;
+    if (last)
+      dt = scene.end_time - time;
     try {
       step(body, dt);
     } catch (const Breakdown& breakdown) {
@@ -189,7 +212,8 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   reporter.last(time, summary.steps, dt);
   summary.wall_seconds = seconds_now() - start;
   summary.us_per_particle_step =
-      1e6 * summary.wall_seconds / (static_cast<double>(summary.steps) * static_cast<double>(summary.particles));
+      1e6 * summary.wall_seconds /
+      (static_cast<double>(summary.steps) * static_cast<double>(summary.particles));
   summary.time = time;
   reporter.summarise(summary);
   progress.finish(fmt::format("{} steps", summary.steps));
@@ -226,7 +250,8 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   step(body, forecast.dt);
   constexpr int tried = 4;
   const double start = seconds_now();
-  for (int i = 0; i < tried; ++i) step(body, forecast.dt);
+  for (int i = 0; i < tried; ++i)
+    step(body, forecast.dt);
   forecast.seconds = (seconds_now() - start) / tried * static_cast<double>(forecast.steps);
   return forecast;
 }
@@ -235,9 +260,8 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
 
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress) {
   cloud.validate("");
-  return with_assembly(scene, cloud, [&](auto& assembly) {
-    return run_assembly(scene, cloud, outputs, progress, assembly);
-  });
+  return with_assembly(
+      scene, cloud, [&](auto& assembly) { return run_assembly(scene, cloud, outputs, progress, assembly); });
 }
 
 Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud) {

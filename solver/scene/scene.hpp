@@ -51,9 +51,9 @@ struct PlaneWall {
 /// One number of the deformed body followed in time: a column of history.csv and an entry of summary.json.
 struct Probe {
   std::string name;
-  std::string quantity; ///< x y z radius (current position, radius about the Z axis; m) ux uy uz (m) vx vy vz (m/s)
-                        ///< plastic_strain von_mises pressure (Pa)
-  std::string reduce;   ///< max, min, mean, extent (max - min) over the set
+  std::string quantity; ///< x y z radius (current position, radius about the Z axis; m) ux uy uz (m) vx vy vz
+                        ///< (m/s) plastic_strain von_mises pressure (Pa)
+  std::string reduce; ///< max, min, mean, extent (max - min) over the set
   std::string on = "all";
 };
 
@@ -62,20 +62,20 @@ struct SceneSpec {
   std::string formulation = "auto"; ///< auto, pF
   std::string scheme = "thesis";    ///< thesis
   std::string kernel = "wendland";  ///< wendland
-  /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each particle's
-  /// own radius that holds `neighbours` of them.
+  /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
+  /// particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
   int neighbours = 30;
-  double jst4 = 1.0 / 8;  ///< kappa4 of (3.85)
-  double cfl = 0.3;       ///< sigma of (3.93)
+  double jst4 = 1.0 / 8; ///< kappa4 of (3.85)
+  double cfl = 0.3;      ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s
   std::vector<InitialVelocity> initial;
   std::vector<FixedCondition> fixed;
   std::vector<PlaneWall> walls;
   std::vector<Probe> probes;
-  int frames = 20;            ///< equally spaced in time, besides the one at time zero
-  int history_rows = 1000;    ///< equally spaced in time, besides the one at time zero
+  int frames = 20;         ///< equally spaced in time, besides the one at time zero
+  int history_rows = 1000; ///< equally spaced in time, besides the one at time zero
 };
 
 struct Energies {
@@ -105,13 +105,13 @@ struct Summary {
 
 /// What a scene would need, found without running it.
 struct Forecast {
-  double mass = 0;       ///< kg
-  double wave_speed = 0; ///< pressure wave, undeformed, m/s
-  double dt = 0;         ///< first step, s
+  double mass = 0;        ///< kg
+  double wave_speed = 0;  ///< pressure wave, undeformed, m/s
+  double dt = 0;          ///< first step, s
   std::int64_t steps = 0; ///< end_time / dt: more when the body is compressed
   double neighbours_mean = 0;
   double bytes_per_particle = 0;
-  double seconds = 0;    ///< estimated from a few steps actually taken
+  double seconds = 0; ///< estimated from a few steps actually taken
   std::vector<std::string> modelled, left_out;
 };
 
@@ -128,8 +128,9 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
 
 /// Runs the scene to its end time. Fields of the frames: Displacement (3), Velocity (3), Pressure, VonMises,
 /// PlasticStrain, Stress (6, Cauchy), J, id.
-/// Throws InputError (set unknown, support too small) before the first step; RunError on J <= 0 or a non-finite value
-/// (naming particle, step and time) or on interruption, after handing out the last good frame.
+/// Throws InputError (set unknown, support too small) before the first step; RunError on J <= 0 or a
+/// non-finite value (naming particle, step and time) or on interruption, after handing out the last good
+/// frame.
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress);
 
 Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud);

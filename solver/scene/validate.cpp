@@ -14,7 +14,8 @@ namespace {
 
 void one_of(const std::string& value, const std::vector<std::string>& allowed, const std::string& key,
             const std::string& where) {
-  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end())
+    return;
   const std::string nearest = nearest_name(value, allowed);
   throw InputError(fmt::format("{} is \"{}\"", key, value), where,
                    fmt::format("{}this version offers: {}",
@@ -26,11 +27,11 @@ void one_of(const std::string& value, const std::vector<std::string>& allowed, c
 
 void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where) {
   const auto number = [&](const std::string& key, double value, bool good, const std::string& range) {
-    require(std::isfinite(value) && good, fmt::format("{} is {:g}", key, value), where(key), "it must be " + range);
+    require(std::isfinite(value) && good, fmt::format("{} is {:g}", key, value), where(key),
+            "it must be " + range);
   };
-  const auto name = [&](const std::string& key, const std::string& value, const std::vector<std::string>& allowed) {
-    one_of(value, allowed, key, where(key));
-  };
+  const auto name = [&](const std::string& key, const std::string& value,
+                        const std::vector<std::string>& allowed) { one_of(value, allowed, key, where(key)); };
 
   const MaterialSpec& m = scene.material;
   name("material.law", m.law, {"hencky"});
@@ -50,17 +51,18 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
   if (scene.support)
     number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
            "above 1 and at most 6 (kernel radius over the spacing)");
-  number("solver.neighbours", scene.neighbours, scene.neighbours >= 8 && scene.neighbours <= 200, "from 8 to 200");
+  number("solver.neighbours", scene.neighbours, scene.neighbours >= 8 && scene.neighbours <= 200,
+         "from 8 to 200");
   number("solver.jst4", scene.jst4, scene.jst4 >= 0 && scene.jst4 <= 1, "from 0 to 1");
   number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
 
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     const PlaneWall& wall = scene.walls[i];
-    number(fmt::format("wall.{}.plane", i), wall.normal.norm(), wall.point.allFinite() && wall.normal.norm() > 0,
-           "a point and a normal of positive length");
-    number(fmt::format("wall.{}.restitution", i), wall.restitution, wall.restitution >= 0 && wall.restitution <= 1,
-           "from 0 to 1");
+    number(fmt::format("wall.{}.plane", i), wall.normal.norm(),
+           wall.point.allFinite() && wall.normal.norm() > 0, "a point and a normal of positive length");
+    number(fmt::format("wall.{}.restitution", i), wall.restitution,
+           wall.restitution >= 0 && wall.restitution <= 1, "from 0 to 1");
   }
   for (std::size_t i = 0; i < scene.fixed.size(); ++i) {
     const auto& c = scene.fixed[i].component;

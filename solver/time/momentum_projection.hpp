@@ -9,10 +9,11 @@
 namespace tessera::solver {
 
 /// Adds lambda + omega x (Gamma_a - centre) to every R_a so that sum V R = 0 and sum V Gamma x R = 0. With
-/// Gamma = x^n in stage 1 and Gamma = x^(n+1) = x^n + dt/(2 rho) (p^n + p*) in stage 2 of Heun's method, total linear and
-/// angular momentum are constant to round-off. R in N/m^3, Gamma in m, V in m^3.
+/// Gamma = x^n in stage 1 and Gamma = x^(n+1) = x^n + dt/(2 rho) (p^n + p*) in stage 2 of Heun's method,
+/// total linear and angular momentum are constant to round-off. R in N/m^3, Gamma in m, V in m^3.
 ///
-/// Moments are taken about the centre of volume, where the 6x6 system (3x3 in the plane) falls into two blocks.
+/// Moments are taken about the centre of volume, where the 6x6 system (3x3 in the plane) falls into two
+/// blocks.
 template <int D>
 void project_momentum(std::span<Vec<D>> R, std::span<const Vec<D>> Gamma, std::span<const double> V) {
   const auto n = static_cast<std::int64_t>(R.size());

@@ -12,8 +12,9 @@
 
 namespace tessera::solver {
 
-template <class Body> class Step {
-public:
+template <class Body>
+class Step {
+ public:
   static constexpr int D = Body::dimension;
 
   Step(std::vector<Fixed<D>> fixed, std::vector<Plane<D>> walls, bool momentum_projection)
@@ -25,8 +26,10 @@ public:
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
-    if (!walls_.empty()) contact_.assign(body.V.size(), Vec<D>::Zero());
-    for (const Fixed<D>& condition : fixed_) condition.apply(body.U.p);
+    if (!walls_.empty())
+      contact_.assign(body.V.size(), Vec<D>::Zero());
+    for (const Fixed<D>& condition : fixed_)
+      condition.apply(body.U.p);
     before_ = body.U;
     hold(body, dt, 1.0);
     account(body);
@@ -59,17 +62,20 @@ public:
     account(body);
   }
 
-private:
+ private:
   /// Makes the nodal forces self-equilibrated about Gamma, and notes what is not the divergence of P.
   void project(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
-    if (projects_) project_momentum<D>(body.R.p, Gamma, body.V);
+    if (projects_)
+      project_momentum<D>(body.R.p, Gamma, body.V);
     for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
   }
 
   /// Essential conditions and contact on the momenta of a stage; `share` of a change reaches U^(n+1).
   void hold(Body& body, double dt, double share) {
-    for (const Plane<D>& wall : walls_) wall.apply(body.U.x, body.U.p, body.density, dt, share, contact_);
-    for (const Fixed<D>& condition : fixed_) condition.apply(body.U.p);
+    for (const Plane<D>& wall : walls_)
+      wall.apply(body.U.x, body.U.p, body.density, dt, share, contact_);
+    for (const Fixed<D>& condition : fixed_)
+      condition.apply(body.U.p);
   }
 
   /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
@@ -82,7 +88,8 @@ private:
       return work;
     };
     dissipated_ -= work_of(numerical_);
-    if (!walls_.empty()) external_ += work_of(contact_);
+    if (!walls_.empty())
+      external_ += work_of(contact_);
   }
 
   std::vector<Fixed<D>> fixed_;

@@ -12,7 +12,8 @@ ParticleCloud box_lattice(int nx, int ny, int nz, const Vec3& size) {
   cloud.subvolumes = "voronoi";
   const int n[3] = {nx, ny, nz};
   Vec3 h = Vec3::Zero();
-  for (int c = 0; c < cloud.dimension; ++c) h[c] = size[c] / (n[c] - 1);
+  for (int c = 0; c < cloud.dimension; ++c)
+    h[c] = size[c] / (n[c] - 1);
   cloud.spacing = h.head(cloud.dimension).minCoeff();
   const int last_axis = cloud.dimension - 1;
   ParticleSet base{"base", {}, {}}, top{"top", {}, {}};
@@ -28,8 +29,10 @@ ParticleCloud box_lattice(int nx, int ny, int nz, const Vec3& size) {
           faces += end;
         }
         const auto id = static_cast<std::int32_t>(cloud.X.size());
-        if (index[last_axis] == 0) base.particles.push_back(id);
-        if (index[last_axis] == n[last_axis] - 1) top.particles.push_back(id);
+        if (index[last_axis] == 0)
+          base.particles.push_back(id);
+        if (index[last_axis] == n[last_axis] - 1)
+          top.particles.push_back(id);
         cloud.X.emplace_back(i * h[0], j * h[1], k * h[2]);
         cloud.V.push_back(volume);
         cloud.domain_volume += volume;
@@ -47,7 +50,8 @@ ParticleCloud jittered(ParticleCloud cloud, double shift, unsigned seed) {
   for (std::size_t a = 0; a < cloud.X.size(); ++a)
     for (int c = 0; c < cloud.dimension; ++c) {
       const double move = shift * cloud.spacing * uniform();
-      if (cloud.cad_dimension[a] == cloud.dimension) cloud.X[a][c] += move;
+      if (cloud.cad_dimension[a] == cloud.dimension)
+        cloud.X[a][c] += move;
     }
   cloud.arrangement = "voronoi";
   return cloud;
@@ -62,8 +66,10 @@ ParticleCloud cylinder_lattice(int n, int layers, double h) {
   for (int k = 0; k < layers; ++k)
     for (int j = -n; j <= n; ++j)
       for (int i = -n; i <= n; ++i) {
-        if (i * i + j * j > n * n) continue;
-        if (k == 0) base.particles.push_back(static_cast<std::int32_t>(cloud.X.size()));
+        if (i * i + j * j > n * n)
+          continue;
+        if (k == 0)
+          base.particles.push_back(static_cast<std::int32_t>(cloud.X.size()));
         cloud.X.emplace_back(i * h, j * h, k * h);
       }
   cloud.domain_volume = std::numbers::pi * n * n * h * h * (layers - 1) * h;

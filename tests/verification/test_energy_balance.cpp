@@ -1,5 +1,5 @@
-/// What the ledger of energies leaves unaccounted for is the error of the time integration alone: it vanishes with the
-/// step.
+/// What the ledger of energies leaves unaccounted for is the error of the time integration alone: it vanishes
+/// with the step.
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
 
@@ -33,7 +33,8 @@ TEST(EnergyBalance, OfAnElasticBodyIsOfThirdOrderInTheStep) {
   scene.fixed.push_back({"base", {true, true, true}});
   scene.end_time = 0.02;
   const auto cloud = test::box_lattice(5, 5, 9, Vec3(0.5, 0.5, 1));
-  // Heun's method amplifies an oscillation by 1 + (omega dt)^4 / 8 a step, which is third order over a given time.
+  // Heun's method amplifies an oscillation by 1 + (omega dt)^4 / 8 a step, which is third order over a given
+  // time.
   const double coarse = balance_error(scene, cloud, 0.1), fine = balance_error(scene, cloud, 0.05);
   EXPECT_LT(coarse, 2e-4);
   EXPECT_NEAR(std::log2(coarse / fine), 3, 0.15);

@@ -30,8 +30,8 @@ struct Hencky {
   /// An elastic law remembers nothing.
   struct History {};
 
-  /// First Piola-Kirchhoff stress, Pa. P = tau' F^-T + (kappa ln J / J) H: the deviator belongs to F, the pressure to the
-  /// formulation's J and H.
+  /// First Piola-Kirchhoff stress, Pa. P = tau' F^-T + (kappa ln J / J) H: the deviator belongs to F, the
+  /// pressure to the formulation's J and H.
   Mat3 piola(const Strain& strain, History&) const {
     const PrincipalLogStrain log_strain(strain.F * strain.F.transpose());
     return piola_from(2 * elastic.mu * log_strain.deviator, log_strain.axes, strain);

@@ -8,7 +8,8 @@
 
 namespace tessera::solver {
 
-template <class Hardening> struct VonMises {
+template <class Hardening>
+struct VonMises {
   Hencky hencky;
   Hardening hardening;
 
@@ -47,8 +48,12 @@ template <class Hardening> struct VonMises {
     return hencky.energy_from(elastic.deviator, strain.J);
   }
 
-  static double equivalent_plastic_strain(const History& history) { return history.equivalent_plastic_strain; }
-  double plastic_work(const History& history) const { return hardening.work(history.equivalent_plastic_strain); }
+  static double equivalent_plastic_strain(const History& history) {
+    return history.equivalent_plastic_strain;
+  }
+  double plastic_work(const History& history) const {
+    return hardening.work(history.equivalent_plastic_strain);
+  }
 };
 
 } // namespace tessera::solver

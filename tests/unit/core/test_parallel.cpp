@@ -12,7 +12,7 @@ using namespace tessera;
 namespace {
 
 class Parallel : public ::testing::Test {
-protected:
+ protected:
   void TearDown() override { set_threads(0); }
 };
 
@@ -24,7 +24,8 @@ TEST_F(Parallel, ForEachVisitsEveryItemOnce) {
     std::vector<int> visits(10007, 0);
     for_each(10007, [&](std::int64_t i) { ++visits[i]; });
     for_each_uneven(10007, [&](std::int64_t i) { ++visits[i]; });
-    for (const int v : visits) ASSERT_EQ(v, 2);
+    for (const int v : visits)
+      ASSERT_EQ(v, 2);
   }
 }
 
@@ -32,7 +33,8 @@ TEST_F(Parallel, SumsAreTheSameBitsOnAnyThreadCount) {
   const auto term = [](std::int64_t i) { return std::sin(static_cast<double>(i)) * std::pow(10.0, i % 17); };
   set_threads(1);
   const double one = sum(100003, 0.0, term);
-  const Vec3 one_vector = sum(100003, Vec3(Vec3::Zero()), [&](std::int64_t i) -> Vec3 { return Vec3(term(i), i, 1); });
+  const Vec3 one_vector =
+      sum(100003, Vec3(Vec3::Zero()), [&](std::int64_t i) -> Vec3 { return Vec3(term(i), i, 1); });
   for (const int n : {2, 3, 7}) {
     set_threads(n);
     EXPECT_EQ(one, sum(100003, 0.0, term));
@@ -53,7 +55,8 @@ TEST_F(Parallel, TheLowestFailureIsRethrownOnAnyThreadCount) {
     set_threads(n);
     try {
       for_each(100000, [](std::int64_t i) {
-        if (i == 900 || i == 90000) throw std::runtime_error(std::to_string(i));
+        if (i == 900 || i == 90000)
+          throw std::runtime_error(std::to_string(i));
       });
       FAIL() << "nothing was thrown";
     } catch (const std::runtime_error& error) {

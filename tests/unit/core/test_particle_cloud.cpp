@@ -32,21 +32,25 @@ std::string message(const ParticleCloud& cloud) {
 
 } // namespace
 
-TEST(ParticleCloud, AGoodOneIsValid) { EXPECT_EQ(message(two_particles()), ""); }
+TEST(ParticleCloud, AGoodOneIsValid) {
+  EXPECT_EQ(message(two_particles()), "");
+}
 
 TEST(ParticleCloud, AnUnknownSetIsAnsweredWithTheNearestAndTheList) {
   try {
     two_particles().set("bsae");
     FAIL() << "found";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "no particle set is named 'bsae', did you mean 'base'? the cloud has: base, top");
+    EXPECT_STREQ(error.what(),
+                 "no particle set is named 'bsae', did you mean 'base'? the cloud has: base, top");
   }
 }
 
 TEST(ParticleCloud, BadValuesAreNamed) {
   ParticleCloud cloud = two_particles();
   cloud.V[1] = -1;
-  EXPECT_EQ(message(cloud), "particle 1 has subvolume -1, cloud.vtp, subvolumes must be positive: prepare the cloud again");
+  EXPECT_EQ(message(cloud),
+            "particle 1 has subvolume -1, cloud.vtp, subvolumes must be positive: prepare the cloud again");
   cloud = two_particles();
   cloud.X[0][2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(message(cloud).find("particle 0 has a value that is not finite"), std::string::npos);

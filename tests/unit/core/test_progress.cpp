@@ -20,7 +20,8 @@ TEST(Progress, PlainLinesAtTenthsWithTimeLeft) {
   EXPECT_NE(out.str().find("solve  50 %, 30 s left\n"), std::string::npos);
   EXPECT_NE(out.str().find("solve: done in 1 min 00 s, 100 steps\n"), std::string::npos);
   int lines = 0;
-  for (const char c : out.str()) lines += c == '\n';
+  for (const char c : out.str())
+    lines += c == '\n';
   EXPECT_EQ(lines, 11);
 }
 

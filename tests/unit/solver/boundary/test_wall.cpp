@@ -14,7 +14,8 @@ Vec3 after(double z, const Vec3& p, double restitution, Vec3* impulse = nullptr)
   std::vector<Vec3> x = {Vec3(0.3, 0.4, z)}, momentum = {p}, given = {Vec3::Zero()};
   const Plane<3> wall{Vec3::Zero(), Vec3::UnitZ(), restitution};
   wall.apply(x, momentum, density, dt, 0.5, given);
-  if (impulse != nullptr) *impulse = given[0];
+  if (impulse != nullptr)
+    *impulse = given[0];
   return momentum[0];
 }
 

@@ -26,18 +26,24 @@ std::vector<Clouds> solid_clouds() {
   list.push_back({irregular, adaptive_support<3>(irregular.X, irregular.V, 30)});
   // The same in micrometres: weights must not depend on the unit.
   auto small = irregular;
-  for (Vec3& x : small.X) x *= 1e-6;
-  for (double& v : small.V) v *= 1e-18;
+  for (Vec3& x : small.X)
+    x *= 1e-6;
+  for (double& v : small.V)
+    v *= 1e-18;
   small.spacing *= 1e-6;
   list.push_back({small, adaptive_support<3>(small.X, small.V, 30)});
   return list;
 }
 
-template <int D> void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph) {
+template <int D>
+void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph) {
   const auto gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   Mat<D> slope;
-  for (int i = 0; i < D * D; ++i) slope.data()[i] = 0.3 * i - 0.8;
-  const auto f = [&](std::int64_t a) -> Vec<D> { return slope * cloud.X[a].template head<D>() + Vec<D>::Constant(0.25); };
+  for (int i = 0; i < D * D; ++i)
+    slope.data()[i] = 0.3 * i - 0.8;
+  const auto f = [&](std::int64_t a) -> Vec<D> {
+    return slope * cloud.X[a].template head<D>() + Vec<D>::Constant(0.25);
+  };
   for (std::int64_t a = 0; a < graph.size(); ++a) {
     Mat<D> G = -f(a) * gradient.s[a].transpose();
     for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
@@ -51,7 +57,8 @@ template <int D> void exact_on_linear(const ParticleCloud& cloud, const Neighbou
 } // namespace
 
 TEST(Gradient, IsExactOnLinearFields) {
-  for (const auto& [cloud, graph] : solid_clouds()) exact_on_linear<3>(cloud, graph);
+  for (const auto& [cloud, graph] : solid_clouds())
+    exact_on_linear<3>(cloud, graph);
   const auto plane = test::jittered(test::box_lattice(9, 11, 1, Vec3(1, 1, 0)), 0.3, 3);
   exact_on_linear<2>(plane, adaptive_support<2>(plane.X, plane.V, 12));
 }
@@ -63,9 +70,11 @@ TEST(Gradient, DivergenceIsMinusItsWeightedTranspose) {
     const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
     std::vector<Vec3> v(cloud.X.size());
     std::vector<Mat3> P(cloud.X.size());
-    for (auto& u : v) u = Vec3(number(), number(), number());
+    for (auto& u : v)
+      u = Vec3(number(), number(), number());
     for (auto& Q : P)
-      for (int i = 0; i < 9; ++i) Q.data()[i] = number();
+      for (int i = 0; i < 9; ++i)
+        Q.data()[i] = number();
     double power_of_forces = 0, power_of_stresses = 0;
     for (std::int64_t a = 0; a < graph.size(); ++a) {
       Mat3 G = -v[a] * gradient.s[a].transpose();
@@ -87,9 +96,12 @@ TEST(Gradient, ForcesOfAnyStressSumToZero) {
     Vec3 total = Vec3::Zero();
     double scale = 0;
     for (std::int64_t a = 0; a < graph.size(); ++a) {
-      const auto stress = [&](std::int64_t b) { return Mat3(Mat3::Identity() * std::sin(static_cast<double>(b))); };
+      const auto stress = [&](std::int64_t b) {
+        return Mat3(Mat3::Identity() * std::sin(static_cast<double>(b)));
+      };
       Vec3 T = stress(a) * gradient.s[a];
-      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) T += stress(graph.column[e]) * gradient.t[e];
+      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
+        T += stress(graph.column[e]) * gradient.t[e];
       total += cloud.V[a] * T;
       scale += cloud.V[a] * T.norm();
     }

@@ -11,7 +11,8 @@ using namespace tessera::solver;
 namespace {
 
 /// Gauss-Legendre on [0, s] in 40 pieces of 5 points.
-template <class F> double integrate(double s, F&& f) {
+template <class F>
+double integrate(double s, F&& f) {
   constexpr std::array<double, 5> x = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
                                        0.9061798459386640};
   constexpr std::array<double, 5> w = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
@@ -19,7 +20,8 @@ template <class F> double integrate(double s, F&& f) {
   double total = 0;
   const double half = s / 80;
   for (int piece = 0; piece < 40; ++piece)
-    for (int i = 0; i < 5; ++i) total += w[i] * half * f((2 * piece + 1) * half + half * x[i]);
+    for (int i = 0; i < 5; ++i)
+      total += w[i] * half * f((2 * piece + 1) * half + half * x[i]);
   return total;
 }
 
@@ -32,7 +34,8 @@ TEST(Wendland, IntegratesToOneInEveryDimension) {
   EXPECT_NEAR(integrate(s, [&](double r) { return 4 * pi * r * r * Wendland<3>::value(r, s); }), 1, 1e-12);
 }
 
-template <int D> void derivatives() {
+template <int D>
+void derivatives() {
   const double s = 1.7, h = 1e-5;
   for (const double r : {0.2, 0.7, 1.3, 1.65}) {
     using W = Wendland<D>;

@@ -26,10 +26,17 @@ double error(const ParticleCloud& cloud, const Neighbours& graph, F&& f, double 
   return worst;
 }
 
-template <int D> void exact(const ParticleCloud& cloud, const Neighbours& graph) {
-  EXPECT_LT((error<D>(cloud, graph, [](const Vec3&) { return 1.0; }, 0)), 1e-12);
-  EXPECT_LT((error<D>(cloud, graph, [](const Vec3& x) { return x[0] - 2 * x[1] + 0.5 * x[2]; }, 0)), 1e-12);
-  EXPECT_LT((error<D>(cloud, graph, [](const Vec3& x) { return x.squaredNorm(); }, 2 * D)), 1e-12);
+template <int D>
+void exact(const ParticleCloud& cloud, const Neighbours& graph) {
+  EXPECT_LT((error<D>(
+                cloud, graph, [](const Vec3&) { return 1.0; }, 0)),
+            1e-12);
+  EXPECT_LT((error<D>(
+                cloud, graph, [](const Vec3& x) { return x[0] - 2 * x[1] + 0.5 * x[2]; }, 0)),
+            1e-12);
+  EXPECT_LT((error<D>(
+                cloud, graph, [](const Vec3& x) { return x.squaredNorm(); }, 2 * D)),
+            1e-12);
 }
 
 } // namespace
@@ -47,9 +54,12 @@ TEST(Laplacian, IsExactOnAnyQuadraticInsideALattice) {
   const auto lattice = test::box_lattice(9, 9, 9, Vec3(1, 1, 1));
   const Neighbours graph = uniform_support(lattice.X, 2.2 * lattice.spacing);
   const Laplacian laplacian = build_laplacian<3>(lattice.X, lattice.V, graph);
-  const auto f = [&](std::int64_t a) { return 3 * lattice.X[a][0] * lattice.X[a][0] + lattice.X[a][1] * lattice.X[a][2]; };
+  const auto f = [&](std::int64_t a) {
+    return 3 * lattice.X[a][0] * lattice.X[a][0] + lattice.X[a][1] * lattice.X[a][2];
+  };
   const std::int64_t centre = 4 * 81 + 4 * 9 + 4;
   double value = -laplacian.sum[centre] * f(centre);
-  for (std::int64_t e = graph.row[centre]; e < graph.row[centre + 1]; ++e) value += laplacian.l[e] * f(graph.column[e]);
+  for (std::int64_t e = graph.row[centre]; e < graph.row[centre + 1]; ++e)
+    value += laplacian.l[e] * f(graph.column[e]);
   EXPECT_NEAR(value, 6, 1e-11);
 }

@@ -15,7 +15,9 @@ Mat3 stretched() {
   return F;
 }
 
-Mat3 rotation() { return Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix(); }
+Mat3 rotation() {
+  return Eigen::AngleAxisd(1.1, Vec3(1, 2, -0.5).normalized()).toRotationMatrix();
+}
 
 Mat3 piola(const Mat3& F) {
   Hencky::History none;

@@ -14,8 +14,8 @@ constexpr double young = 117e9, poisson = 0.35, yield = 0.4e9, modulus = 0.1e9;
 using Law = VonMises<LinearHardening>;
 const Law law{Hencky{ElasticConstants::from(young, poisson)}, {yield, modulus}};
 
-/// F of uniaxial stress with equivalent plastic strain eps: in logarithmic strains the axial one is tau / E + eps and the
-/// lateral ones -nu tau / E - eps / 2, with tau = yield + modulus eps.
+/// F of uniaxial stress with equivalent plastic strain eps: in logarithmic strains the axial one is tau / E +
+/// eps and the lateral ones -nu tau / E - eps / 2, with tau = yield + modulus eps.
 Mat3 uniaxial(double eps) {
   const double tau = yield + modulus * eps;
   return Vec3(std::exp(tau / young + eps), std::exp(-poisson * tau / young - eps / 2),
@@ -23,9 +23,13 @@ Mat3 uniaxial(double eps) {
       .asDiagonal();
 }
 
-Mat3 kirchhoff(const Mat3& F, Law::History& history) { return law.piola(Strain::of(F), history) * F.transpose(); }
+Mat3 kirchhoff(const Mat3& F, Law::History& history) {
+  return law.piola(Strain::of(F), history) * F.transpose();
+}
 
-Mat3 rotation(double angle) { return Eigen::AngleAxisd(angle, Vec3(1, -1, 2).normalized()).toRotationMatrix(); }
+Mat3 rotation(double angle) {
+  return Eigen::AngleAxisd(angle, Vec3(1, -1, 2).normalized()).toRotationMatrix();
+}
 
 } // namespace
 
@@ -101,7 +105,8 @@ TEST(VonMises, StressIsTheDerivativeOfItsEnergyAtFixedHistory) {
     Mat3 plus = F, minus = F;
     plus.data()[i] += h;
     minus.data()[i] -= h;
-    difference.data()[i] = (law.energy(Strain::of(plus), history) - law.energy(Strain::of(minus), history)) / (2 * h);
+    difference.data()[i] =
+        (law.energy(Strain::of(plus), history) - law.energy(Strain::of(minus), history)) / (2 * h);
   }
   EXPECT_LT((P - difference).norm() / P.norm(), 1e-7);
 }

@@ -25,4 +25,6 @@ TEST(Expression, AFaultIsReportedWithItsPosition) {
   EXPECT_THROW(Expression(""), InputError);
 }
 
-TEST(Expression, AnInfiniteValueIsRefused) { EXPECT_THROW(Expression("1/X")(Vec3::Zero()), InputError); }
+TEST(Expression, AnInfiniteValueIsRefused) {
+  EXPECT_THROW(Expression("1/X")(Vec3::Zero()), InputError);
+}

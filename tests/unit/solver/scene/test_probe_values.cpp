@@ -11,7 +11,8 @@ namespace {
 
 struct TwoParticles {
   ParticleCloud cloud;
-  std::vector<double> u = {0, 0, 0, 3, 4, -1}, v = {1, 0, 0, 2, 0, 0}, eps = {0.5, 0.25}, mises = {1e6, 3e6}, pr = {-1, 1};
+  std::vector<double> u = {0, 0, 0, 3, 4, -1}, v = {1, 0, 0, 2, 0, 0}, eps = {0.5, 0.25}, mises = {1e6, 3e6},
+                      pr = {-1, 1};
 
   TwoParticles() {
     cloud.X = {Vec3(1, 0, 0), Vec3(0, 0, 5)};
@@ -43,4 +44,6 @@ TEST(Probe, ColumnsCarryTheirUnit) {
   EXPECT_EQ(column_name({"eps", "plastic_strain", "max", "all"}), "eps");
 }
 
-TEST(Probe, AnUnknownSetIsAnError) { EXPECT_THROW(TwoParticles().read("z", "max", "tpo"), InputError); }
+TEST(Probe, AnUnknownSetIsAnError) {
+  EXPECT_THROW(TwoParticles().read("z", "max", "tpo"), InputError);
+}

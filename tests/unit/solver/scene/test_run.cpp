@@ -53,7 +53,8 @@ TEST(Run, HandsOutFramesHistoryAndSummary) {
   EXPECT_EQ(recorded.frame_times.back(), 3e-6);
   EXPECT_TRUE(std::is_sorted(recorded.frame_times.begin(), recorded.frame_times.end()));
   ASSERT_EQ(recorded.rows.size(), 11u);
-  for (const auto& row : recorded.rows) ASSERT_EQ(row.size(), recorded.columns.size());
+  for (const auto& row : recorded.rows)
+    ASSERT_EQ(row.size(), recorded.columns.size());
   EXPECT_EQ(recorded.columns[recorded.columns.size() - 2], "radius_m");
   EXPECT_EQ(summary.time, 3e-6);
   EXPECT_EQ(summary.formulation, "pF");
@@ -104,7 +105,8 @@ TEST(Run, ABlowUpNamesParticleStepAndTimeAndLeavesTheLastGoodFrame) {
     EXPECT_EQ(error.status(), ExitStatus::run_failed);
   }
   ASSERT_FALSE(recorded.last_displacement.empty());
-  for (const double u : recorded.last_displacement) ASSERT_TRUE(std::isfinite(u));
+  for (const double u : recorded.last_displacement)
+    ASSERT_TRUE(std::isfinite(u));
   EXPECT_EQ(recorded.rows.back()[0], recorded.frame_times.back());
 }
 
@@ -149,6 +151,7 @@ TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
   EXPECT_NEAR(forecast.mass / (8930 * cloud.domain_volume), 1, 1e-12);
   EXPECT_GT(forecast.bytes_per_particle, 1000);
   EXPECT_FALSE(forecast.modelled.empty());
-  EXPECT_NE(std::find(forecast.left_out.begin(), forecast.left_out.end(), "fixed velocities (no [[boundary]])"),
-            forecast.left_out.end());
+  EXPECT_NE(
+      std::find(forecast.left_out.begin(), forecast.left_out.end(), "fixed velocities (no [[boundary]])"),
+      forecast.left_out.end());
 }

@@ -21,7 +21,8 @@ SceneSpec good() {
 }
 
 /// The message for a scene that `spoil` has made bad, or "" when it passes.
-template <class F> std::string message(F&& spoil) {
+template <class F>
+std::string message(F&& spoil) {
   SceneSpec scene = good();
   spoil(scene);
   try {
@@ -40,10 +41,12 @@ TEST(Validate, AGoodScenePasses) {
 
 TEST(Validate, NamesKeyValuePlaceAndRange) {
   EXPECT_EQ(message([](SceneSpec& s) { s.material.poisson = 0.5; }),
-            "material.poisson is 0.5, case.toml:material.poisson, it must be above -1 and below 0.5: at 0.5 pressure "
+            "material.poisson is 0.5, case.toml:material.poisson, it must be above -1 and below 0.5: at 0.5 "
+            "pressure "
             "waves are infinitely fast");
   EXPECT_EQ(message([](SceneSpec& s) { s.material.law = "henky"; }),
-            "material.law is \"henky\", case.toml:material.law, did you mean \"hencky\"? this version offers: hencky");
+            "material.law is \"henky\", case.toml:material.law, did you mean \"hencky\"? this version "
+            "offers: hencky");
 }
 
 TEST(Validate, RefusesImpossibleValues) {

@@ -9,7 +9,8 @@ using namespace tessera::solver;
 
 namespace {
 
-template <int D> struct Forces {
+template <int D>
+struct Forces {
   std::vector<Vec<D>> R, x;
   std::vector<double> V;
 
@@ -30,20 +31,23 @@ template <int D> struct Forces {
 
   Vec<D> force() const {
     Vec<D> total = Vec<D>::Zero();
-    for (std::size_t a = 0; a < R.size(); ++a) total += V[a] * R[a];
+    for (std::size_t a = 0; a < R.size(); ++a)
+      total += V[a] * R[a];
     return total;
   }
 };
 
 Vec3 moment(const Forces<3>& f) {
   Vec3 total = Vec3::Zero();
-  for (std::size_t a = 0; a < f.R.size(); ++a) total += f.V[a] * f.x[a].cross(f.R[a]);
+  for (std::size_t a = 0; a < f.R.size(); ++a)
+    total += f.V[a] * f.x[a].cross(f.R[a]);
   return total;
 }
 
 double moment(const Forces<2>& f) {
   double total = 0;
-  for (std::size_t a = 0; a < f.R.size(); ++a) total += f.V[a] * (f.x[a][0] * f.R[a][1] - f.x[a][1] * f.R[a][0]);
+  for (std::size_t a = 0; a < f.R.size(); ++a)
+    total += f.V[a] * (f.x[a][0] * f.R[a][1] - f.x[a][1] * f.R[a][0]);
   return total;
 }
 
@@ -68,5 +72,6 @@ TEST(MomentumProjection, LeavesBalancedForcesAlone) {
   project_momentum<3>(f.R, f.x, f.V);
   const auto once = f.R;
   project_momentum<3>(f.R, f.x, f.V);
-  for (std::size_t a = 0; a < once.size(); ++a) EXPECT_LT((f.R[a] - once[a]).norm(), 1e-14);
+  for (std::size_t a = 0; a < once.size(); ++a)
+    EXPECT_LT((f.R[a] - once[a]).norm(), 1e-14);
 }

@@ -1,0 +1,76 @@
+/// Cost of building the operators and of a step: nanoseconds per particle, on one thread and on all.
+#include "core/parallel.hpp"
+#include "solver/operators/gradient.hpp"
+#include "solver/operators/laplacian.hpp"
+#include "solver/operators/support.hpp"
+#include "solver/scene/scene.hpp"
+#include "tests/support/clouds.hpp"
+
+#include <benchmark/benchmark.h>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+namespace {
+
+SceneSpec copper_bar() {
+  SceneSpec scene;
+  scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
+  scene.jst4 = 1.0 / 4096;
+  scene.initial.push_back({"all", {Expression("0"), Expression("0"), Expression("-227")}});
+  scene.walls.push_back({});
+  scene.frames = scene.history_rows = 1;
+  return scene;
+}
+
+SceneSpec rubber_bar() {
+  SceneSpec scene = copper_bar();
+  scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
+  scene.walls.clear();
+  return scene;
+}
+
+/// Neighbours, gradient and Laplacian of a lattice of range(0)^3 particles, per particle.
+void operator_build(benchmark::State& state) {
+  const auto n = static_cast<int>(state.range(0));
+  set_threads(static_cast<int>(state.range(1)));
+  const auto cloud = test::box_lattice(n, n, n, Vec3(1, 1, 1));
+  for (auto _ : state) {
+    const Neighbours graph = uniform_support(cloud.X, 2.2 * cloud.spacing);
+    benchmark::DoNotOptimize(build_gradient<3>(cloud.X, cloud.V, graph).w.data());
+    benchmark::DoNotOptimize(build_laplacian<3>(cloud.X, cloud.V, graph).l.data());
+  }
+  state.counters["ns/particle"] =
+      benchmark::Counter(static_cast<double>(cloud.size()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// Whole steps (two stages) of a cylinder of `layers` layers of 81 particles, from run()'s own clock.
+void step(benchmark::State& state, const SceneSpec& base) {
+  set_threads(static_cast<int>(state.range(1)));
+  const auto cloud = test::cylinder_lattice(5, static_cast<int>(state.range(0)), 0.64e-3);
+  SceneSpec scene = base;
+  scene.end_time = 100 * forecast(scene, cloud).dt;
+  double ns = 0, neighbours = 0;
+  for (auto _ : state) {
+    const Summary summary = run(scene, cloud, {}, Progress::silent());
+    state.SetIterationTime(summary.wall_seconds);
+    ns += 1e3 * summary.us_per_particle_step;
+    neighbours = summary.neighbours_mean;
+  }
+  state.counters["ns/particle/step"] = ns / static_cast<double>(state.iterations());
+  state.counters["neighbours"] = neighbours;
+}
+
+void plastic_step(benchmark::State& state) {
+  step(state, copper_bar());
+}
+void elastic_step(benchmark::State& state) {
+  step(state, rubber_bar());
+}
+
+} // namespace
+
+BENCHMARK(operator_build)->ArgsProduct({{20, 46}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
+BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
