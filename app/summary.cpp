@@ -120,7 +120,8 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
   line("memory", fmt::format("{:.1f} MB ({:.0f} bytes a particle)",
                              f.bytes_per_particle * static_cast<double>(o.quality.particles) / 1e6,
                              f.bytes_per_particle));
-  line("time", fmt::format("about {} on {} threads", duration(f.seconds), threads()));
+  line("time",
+       fmt::format("about {} on {} thread{}", duration(f.seconds), threads(), threads() == 1 ? "" : "s"));
   return text;
 }
 
