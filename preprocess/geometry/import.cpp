@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -86,9 +87,9 @@ std::string quoted_last_words(const std::string& output) {
 }
 
 bool speaks_of_memory(const std::string& output) {
-  for (const char* words :
-       {"bad_alloc", "out of memory", "Out of memory", "OUT OF MEMORY", "Cannot allocate",
-        "could not allocate", "Could not allocate", "memory exhausted", "Not enough memory"})
+  for (const char* words : {"bad_alloc", "out of memory", "Out of memory", "OUT OF MEMORY", "Cannot allocate",
+                            "could not allocate", "Could not allocate", "memory exhausted",
+                            "Not enough memory", "failed to map segment"})
     if (output.find(words) != std::string::npos)
       return true;
   return false;
@@ -153,6 +154,39 @@ std::string occ_name(const std::string& unit) {
   return names.at(unit);
 }
 
+/// Refuses a .geo file that may do more than draw, or whose end gmsh would not see.
+void check_script(const GeometrySource& source) {
+  const std::string text = read_text(source.file), name = source.file.string();
+  if (source.trust) {
+    require(text.back() == '\n',
+            "the .geo file does not end with a line break: gmsh would skip its last line", name, "add one");
+    return;
+  }
+  const auto finding = forbidden_in_geo(text);
+  require(finding.what.empty(),
+          fmt::format("the .geo file is refused: it holds {}, which may run programs or touch files",
+                      finding.what),
+          fmt::format("{}:{}", name, finding.line), "remove it, or set trust = true if you trust the file");
+}
+
+/// gmsh also obeys a file of the same name with .opt behind it; under a private name there is none. A trusted
+/// .geo is opened where it lies, for it may include its neighbours; another one is copied, with the line
+/// break gmsh needs.
+fs::path file_to_open(const GeometrySource& source, CadFormat format, const fs::path& folder) {
+  const fs::path original = fs::absolute(source.file);
+  if (format == CadFormat::geo && source.trust)
+    return original;
+  std::string extension = source.file.extension().string();
+  for (char& c : extension)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const fs::path opened = folder / ("input" + extension);
+  if (format == CadFormat::geo)
+    std::ofstream(opened, std::ios::binary) << read_text(original) << '\n';
+  else
+    fs::create_symlink(original, opened);
+  return opened;
+}
+
 void note_domain(const Domain& domain, const GeometrySource& source, Progress& progress) {
   const double metres = metres_per_unit(source.unit);
   const Vec3 low = domain.lower / metres, high = domain.upper / metres;
@@ -188,29 +222,13 @@ Domain import_geometry(const GeometrySource& source, Progress& progress) {
           "the mesh size is negative or not a number", "[geometry] mesh_size",
           "give a length in metres, or 0 for a tenth of the part");
   const CadFormat format = check_cad_file(source.file);
-  if (format == CadFormat::geo && !source.trust) {
-    const auto finding = forbidden_in_geo(read_text(source.file));
-    require(finding.what.empty(),
-            fmt::format("the .geo file is refused: it holds {}, which may run programs or touch "
-                        "files",
-                        finding.what),
-            fmt::format("{}:{}", name, finding.line), "remove it, or set trust = true if you trust the file");
-  }
+  if (format == CadFormat::geo)
+    check_script(source);
   // STEP lengths come in the file's own unit, all others are plain numbers.
   const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
 
-  // gmsh also obeys a file of the same name with .opt behind it; under a private name there is none. A
-  // trusted .geo is opened where it lies: it may include its neighbours.
   const PrivateFolder folder;
-  const fs::path original = fs::absolute(source.file);
-  fs::path opened = original;
-  if (!source.trust || format != CadFormat::geo) {
-    std::string extension = source.file.extension().string();
-    for (char& c : extension)
-      c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    opened = folder.path() / ("input" + extension);
-    fs::create_symlink(original, opened);
-  }
+  const fs::path opened = file_to_open(source, format, folder.path());
   const fs::path result = folder.path() / "domain";
   const fs::path program = importer_program();
   const ChildEnd end = run_child(

@@ -58,42 +58,55 @@ std::optional<double> kernel_volume(int solid) {
 }
 
 /// Meshes the surfaces with `segments` edges a turn; volume inside.
-double mesh_surfaces(double size, double segments, const std::string& name) {
+double mesh_surfaces(double size, double segments, bool by_curvature, const std::string& name) {
   gmsh::model::mesh::clear();
-  set_sizes(size, segments);
+  const double finer = first_segments / segments;
+  // gmsh's own kernel hangs in curvature sizing (4.8.4): its surfaces are refined all over.
+  if (by_curvature)
+    set_sizes(size, 0.1 * size * finer, segments);
+  else
+    set_sizes(size * finer, 0, 0);
   gmsh::model::mesh::generate(2);
   if (const std::string complaint = first_complaint(); !complaint.empty())
     throw InputError(fmt::format("a surface cannot be meshed: {}", complaint), name,
                      "heal the solid in the CAD program");
   const auto mesh = surface_triangles();
-  require(
-      mesh.triangles.size() < most_triangles,
-      fmt::format("curved surfaces take more than {} triangles at {:.0f} a turn", most_triangles, segments),
-      name, "ask for a looser [geometry] tolerance");
-  return volume_inside(mesh, name);
+  require(mesh.triangles.size() < most_triangles,
+          fmt::format("curved surfaces take more than {} triangles", most_triangles), name,
+          "ask for a looser [geometry] tolerance");
+  const double volume = volume_inside(mesh, name);
+  require(volume > 0, "the solid has no volume", name, "give a closed solid");
+  return volume;
 }
 
-/// Refines curved surfaces until the volume inside is right to the tolerance; returns the CAD volume.
-double tessellate(int solid, double size, const Request& request) {
+struct Tessellation {
+  double mesh_volume, cad_volume;
+};
+
+/// Refines the surfaces until the volume inside is right to the tolerance.
+Tessellation tessellate(int solid, double size, const Request& request) {
   const std::optional<double> exact = kernel_volume(solid);
-  double segments = first_segments, coarser = 0, error = 0;
-  for (bool first = true; segments <= most_segments; first = false) {
-    const double volume = mesh_surfaces(size, segments, request.name);
-    require(volume > 0, "the solid has no volume", request.name, "give a closed solid");
-    // Chordal error falls with the square of the edge: without a kernel's volume, twice the segments tell the
-    // limit.
-    const double limit = exact ? *exact : first ? 0 : volume + (volume - coarser) / 3;
-    error = std::abs(volume - limit) / std::abs(limit != 0 ? limit : volume);
-    if ((exact || !first) && error < request.tolerance)
-      return error < planar && !exact ? volume : limit;
-    const double wanted =
-        exact ? segments * std::clamp(1.05 * std::sqrt(error / request.tolerance), 1.2, 8.0) : 2 * segments;
-    coarser = volume;
-    if (segments < most_segments && wanted > most_segments && exact) {
-      segments = most_segments;
-      continue;
+  double segments = first_segments, volume = mesh_surfaces(size, segments, exact.has_value(), request.name),
+         error = 1;
+  for (;;) {
+    double limit = exact.value_or(0), next = 0;
+    if (!exact) {
+      // Chordal error falls with the square of the edge, so two meshes tell where it goes.
+      const double coarser = volume;
+      segments *= 2;
+      volume = mesh_surfaces(size, segments, false, request.name);
+      limit = std::abs(volume - coarser) < planar * volume ? volume : volume + (volume - coarser) / 3;
     }
-    segments = std::ceil(wanted);
+    error = std::abs(volume - limit) / std::abs(limit);
+    if (error < request.tolerance)
+      return {volume, limit};
+    if (segments >= most_segments)
+      break;
+    if (exact) {
+      next = segments * std::clamp(1.05 * std::sqrt(error / request.tolerance), 1.2, 8.0);
+      segments = std::min(std::ceil(next), most_segments);
+      volume = mesh_surfaces(size, segments, true, request.name);
+    }
   }
   throw InputError(
       fmt::format("the mesh volume stays {:.2g} off the CAD volume, more than the tolerance {:.2g}", error,
@@ -196,7 +209,7 @@ Domain import_cad(const Request& request) {
           "give a closed solid");
   const double size = request.mesh_size > 0 ? request.mesh_size : diagonal / 10;
 
-  const double cad_volume = tessellate(solid, size, request);
+  const Tessellation surface = tessellate(solid, size, request);
   fill_volume(size);
   if (const std::string complaint = first_complaint(); !complaint.empty())
     throw InputError(fmt::format("the volume cannot be meshed: {}", complaint), request.name,
@@ -204,6 +217,7 @@ Domain import_cad(const Request& request) {
 
   TaggedDomain tagged = read_tetrahedra(request.name, true);
   Domain& domain = tagged.domain;
+  check_filled(domain, surface.mesh_volume, request.name);
   if (request.format == preprocess::CadFormat::step)
     name_step_faces(tagged, request);
   preprocess::find_feature_edges(domain);
@@ -223,7 +237,7 @@ Domain import_cad(const Request& request) {
   rule.largest_kink = 10;
   preprocess::find_corners(domain, rule);
   read_groups(tagged);
-  domain.cad_volume = cad_volume;
+  domain.cad_volume = surface.cad_volume;
   return std::move(domain);
 }
 

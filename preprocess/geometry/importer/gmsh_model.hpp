@@ -27,8 +27,9 @@ void open_file(const std::string& file, const std::string& name);
 /// First error gmsh has logged since it was last asked, without its prefix; empty when there was none.
 std::string first_complaint();
 
-/// Largest mesh edges: `size` everywhere, and `segments` edges a full turn on curved surfaces.
-void set_sizes(double size, double segments);
+/// Mesh edges: at most `largest`, with `segments` of them a full turn on curved surfaces, but none below
+/// `smallest` (the tip of a cone has no radius).
+void set_sizes(double largest, double smallest, double segments);
 
 /// Meshes the volume between the surface triangles that are there, coarse inside.
 void fill_volume(double size);
@@ -44,10 +45,14 @@ struct TaggedDomain {
   std::map<int, std::int32_t> curve_index; ///< Domain curve of each gmsh curve that is a feature
 };
 
-/// Reads nodes and tetrahedra. Facets get the surface whose triangle they are; the surfaces are those that
-/// bound the body, in the order of their tags, named face1, face2... by tag. `need_surfaces`: InputError when
-/// a facet has none (else its surface stays -1).
+/// Reads nodes and tetrahedra; where surfaces of the model wall a cavity off, those inside the cavity are
+/// left out (gmsh's constrained Delaunay fills it too). Facets get the surface whose triangle they are; the
+/// surfaces are those that bound the body, in the order of their tags, named face1, face2... by tag.
+/// `need_surfaces`: InputError when a facet has none (else its surface stays -1).
 TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces);
+
+/// Throws InputError unless the tetrahedra fill the volume inside their surface to rounding.
+void check_filled(preprocess::Domain& domain, double surface_volume, const std::string& name);
 
 /// Curves of the feature edges from gmsh's line elements, numbered by tag.
 void read_curves(TaggedDomain& tagged);
