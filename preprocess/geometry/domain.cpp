@@ -67,8 +67,9 @@ void Domain::validate(const std::string& origin) const {
   for (const Vec3& X : vertices)
     require(X.allFinite(), "a vertex is not a finite point", origin, "repair the file");
   for (std::size_t t = 0; t < tets.size(); ++t) {
-    require(std::all_of(tets[t].begin(), tets[t].end(), known),
-            fmt::format("tetrahedron {} names a vertex that is not there", t), origin, "repair the file");
+    if (!std::all_of(tets[t].begin(), tets[t].end(), known))
+      throw InputError(fmt::format("tetrahedron {} names a vertex that is not there", t), origin,
+                       "repair the file");
     if (!(tet_volume(t) > 0))
       throw InputError(
           fmt::format("tetrahedron {} has volume {:.3g} m^3, not a positive one", t, tet_volume(t)),
@@ -80,16 +81,16 @@ void Domain::validate(const std::string& origin) const {
   double area = 0;
   for (std::size_t f = 0; f < facets.size(); ++f) {
     const Facet& facet = facets[f];
-    require(facet.tet >= 0 && facet.tet < static_cast<std::int32_t>(tets.size()) &&
-                std::all_of(facet.vertices.begin(), facet.vertices.end(),
-                            [&](std::int32_t v) {
-                              const auto& tet = tets[facet.tet];
-                              return std::find(tet.begin(), tet.end(), v) != tet.end();
-                            }),
-            fmt::format("boundary triangle {} is not a face of its tetrahedron", f), origin,
-            "remesh the body");
-    require(facet.surface >= 0 && facet.surface < static_cast<std::int32_t>(surfaces.size()),
-            fmt::format("boundary triangle {} lies on no surface", f), origin, "repair the file");
+    const auto behind = [&](std::int32_t v) {
+      const auto& tet = tets[facet.tet];
+      return std::find(tet.begin(), tet.end(), v) != tet.end();
+    };
+    if (facet.tet < 0 || facet.tet >= static_cast<std::int32_t>(tets.size()) ||
+        !std::all_of(facet.vertices.begin(), facet.vertices.end(), behind))
+      throw InputError(fmt::format("boundary triangle {} is not a face of its tetrahedron", f), origin,
+                       "remesh the body");
+    if (facet.surface < 0 || facet.surface >= static_cast<std::int32_t>(surfaces.size()))
+      throw InputError(fmt::format("boundary triangle {} lies on no surface", f), origin, "repair the file");
     const Vec3 &A = vertices[facet.vertices[0]], &B = vertices[facet.vertices[1]],
                &C = vertices[facet.vertices[2]];
     const Vec3 normal = (B - A).cross(C - A) / 2;
@@ -110,8 +111,7 @@ void Domain::validate(const std::string& origin) const {
                      at((vertices[open[0][0]] + vertices[open[0][1]]) / 2), "close the holes in the surface");
   require(closure.norm() <= 1e-9 * area, "the surface does not close: its area vectors do not sum to zero",
           origin, "close the holes in the surface");
-  const double solid = std::abs(volume);
-  require(std::isfinite(solid) && solid > 0, "the volume was not measured", origin, "call measure() first");
+  require(std::isfinite(volume) && volume > 0, "the volume was not measured", origin, "call measure() first");
 }
 
 } // namespace tessera::preprocess

@@ -53,7 +53,9 @@ const std::set<std::string, std::less<>> plain{
     "return",        "struct",         "alternated", "left",        "right",
     "alternateleft", "alternateright", "parent",     "affine",      "elliptic",
     "color",         "circle",         "ellipse",    "spline",      "layers",
-    "knots",         "order",          "attractor"};
+    "knots",         "order",          "attractor",  "name",        "help",
+    "label",         "units",          "kind",       "highlight"}; // the last line: attributes of
+                                                                   // DefineConstant
 
 struct Token {
   enum class Kind { word, number, text, symbol, bad, end };
@@ -170,6 +172,7 @@ GeoFinding forbidden_in_geo(std::string_view script) {
     return {"a zero byte", 1};
   Scanner scanner(script);
   Token before;
+  bool named = false;    // `before` is the name of a macro: a new statement follows
   bool printing = false; // inside a Printf statement
   for (Token token = scanner.next(); token.kind != Token::Kind::end; before = token, token = scanner.next()) {
     if (token.kind == Token::Kind::bad)
@@ -178,8 +181,10 @@ GeoFinding forbidden_in_geo(std::string_view script) {
     if (forbidden.contains(word))
       return {token.value, token.line};
     const bool operand = token.kind == Token::Kind::word || token.kind == Token::Kind::text;
-    if (operand && before.kind == Token::Kind::word && !plain.contains(lower(before.value)))
+    const std::string previous = before.kind == Token::Kind::word ? lower(before.value) : std::string{};
+    if (operand && !previous.empty() && !named && word != "in" && !plain.contains(previous))
       return {before.value + " (an unknown command)", before.line};
+    named = previous == "macro" || previous == "function" || previous == "call";
     if (word == "printf" || word == "error" || word == "warning")
       printing = true;
     if (token.value == ";" && token.kind == Token::Kind::symbol)
