@@ -5,7 +5,8 @@
 #include "core/interrupt.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud_file.hpp"
-#include "io/series.hpp"
+#include "io/field_series.hpp"
+#include "io/history.hpp"
 #include "postprocess/report.hpp"
 
 #include <fmt/format.h>

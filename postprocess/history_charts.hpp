@@ -1,7 +1,7 @@
 /// From columns of history.csv to charts.
 #pragma once
 
-#include "io/series.hpp"
+#include "io/history.hpp"
 #include "postprocess/render_job.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "postprocess/picture.hpp"
 
 #include "core/error.hpp"
-#include "io/series.hpp"
+#include "io/field_series.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"
 

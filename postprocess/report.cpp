@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/series.hpp"
+#include "io/history.hpp"
 #include "postprocess/history_charts.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"

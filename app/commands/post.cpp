@@ -1,7 +1,7 @@
 #include "app/commands/commands.hpp"
 #include "app/stages.hpp"
 #include "core/error.hpp"
-#include "io/series.hpp"
+#include "io/field_series.hpp"
 
 #include <fmt/format.h>
 

@@ -47,15 +47,15 @@ TEST_F(IncludeArrows, AllowWhatPointsAlongThem) {
 }
 
 TEST_F(IncludeArrows, NameFileLineAndBothEnds) {
-  add("solver/scene/a.cpp", "#include \"io/series.hpp\"");
+  add("solver/scene/a.cpp", "#include \"io/field_series.hpp\"");
   EXPECT_EQ(found(),
-            std::vector<std::string>{"solver/scene/a.cpp:2: solver may not include io ('io/series.hpp')"});
+            std::vector<std::string>{"solver/scene/a.cpp:2: solver may not include io ('io/field_series.hpp')"});
 }
 
 TEST_F(IncludeArrows, EveryWrongDirectionIsFound) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
       {"core/a.hpp", "#include \"solver/scene/scene.hpp\""},
-      {"core/b.hpp", "#include \"io/series.hpp\""},
+      {"core/b.hpp", "#include \"io/field_series.hpp\""},
       {"preprocess/a.cpp", "#include \"solver/scene/scene.hpp\""},
       {"io/a.cpp", "#include \"preprocess/geometry/domain.hpp\""},
       {"postprocess/a.cpp", "#include \"app/options.hpp\""},

@@ -2,7 +2,8 @@
 
 #include "tests/cli/small_case.hpp"
 
-#include "io/series.hpp"
+#include "io/field_series.hpp"
+#include "io/history.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "io/cloud_file.hpp"
-#include "io/series.hpp"
+#include "io/field_series.hpp"
+#include "io/history.hpp"
 #include "tests/unit/io/temporary_folder.hpp"
 #include "tests/unit/postprocess/taylor_bar.hpp"
 

@@ -1,11 +1,11 @@
-/// fields.pvd and fields/*.vtu: the frames of a run as ParaView opens them; history.csv beside them.
+/// fields.pvd and fields/*.vtu: the frames of a run as ParaView opens them.
 #pragma once
 
 #include "core/frame.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tessera::io {
@@ -32,26 +32,5 @@ struct StoredFrame {
 };
 /// The frames fields.pvd lists, in order of time; InputError when there are none.
 std::vector<StoredFrame> read_series(const std::filesystem::path& folder);
-
-/// history.csv: a header of column names, then rows; flushed row by row.
-class HistoryFile {
- public:
-  explicit HistoryFile(const std::filesystem::path& file);
-  void columns(const std::vector<std::string>& names);
-  void row(const std::vector<double>& values);
-
- private:
-  std::filesystem::path file_;
-  std::ofstream out_;
-};
-
-/// A stored history: names, and one column of numbers each.
-struct History {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> columns;
-  /// InputError naming the columns there are when `name` is not one of them.
-  const std::vector<double>& column(const std::string& name) const;
-};
-History read_history(const std::filesystem::path& file);
 
 } // namespace tessera::io
