@@ -42,8 +42,8 @@ void limit(int resource, std::uint64_t value) {
 }
 
 /// After fork in a program that may have threads: nothing here may allocate. Never returns.
-[[noreturn]] void become(char* const* arguments, const char* folder, const ChildLimits& limits, int output,
-                         int failure, pid_t parent) {
+[[noreturn]] void become(char* const* arguments, const char* folder,
+                         [[maybe_unused]] const ChildLimits& limits, int output, int failure, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent)

@@ -46,7 +46,7 @@ std::size_t pieces(const Domain& domain) {
   return count;
 }
 
-/// Corners of a body whose curves are known only by their mesh edges.
+/// Volume of a body that is its own reference; one piece only.
 void finish(TaggedDomain& tagged, const std::string& name) {
   Domain& domain = tagged.domain;
   domain.measure();

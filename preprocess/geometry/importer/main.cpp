@@ -14,6 +14,7 @@
 #include "preprocess/geometry/importer/gmsh_model.hpp"
 #include "preprocess/geometry/importer/request.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>

@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "core/interrupt.hpp"
 #include "preprocess/geometry/domain_stream.hpp"
 #include "preprocess/geometry/import.hpp"
 #include "tests/support/domains.hpp"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +16,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <thread>
 #include <unistd.h>
 
 namespace tessera::preprocess {
@@ -372,6 +375,26 @@ TEST_F(Import, real_importer_keeps_to_its_memory_limit) {
   EXPECT_SAYS(
       complaint({.file = taylor_bar, .unit = "mm", .tolerance = 1e-4, .bytes = std::uint64_t{150} << 20}),
       "memory limit of 150 MiB");
+}
+
+TEST_F(Import, interruption_ends_the_importer) {
+  stand_in("sleep 300");
+  const auto interrupt_while_importing = [] {
+    catch_interrupts();
+    std::thread user([] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      ::kill(::getpid(), SIGINT);
+    });
+    int status = 0;
+    try {
+      import(taylor_bar, "mm");
+    } catch (const RunError& error) {
+      status = std::string(error.what()).find("interrupted") != std::string::npos ? 7 : 1;
+    }
+    user.join();
+    std::_Exit(status);
+  };
+  EXPECT_EXIT(interrupt_while_importing(), testing::ExitedWithCode(7), "");
 }
 
 TEST_F(Import, short_altered_or_missing_answers_are_errors) {
