@@ -1,8 +1,9 @@
 #include "preprocess/geometry/import.hpp"
 
+#include "core/child_process.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "preprocess/geometry/cad_file.hpp"
-#include "preprocess/geometry/child.hpp"
 #include "preprocess/geometry/domain_stream.hpp"
 #include "preprocess/geometry/geo_script.hpp"
 
@@ -22,42 +23,6 @@ namespace tessera::preprocess {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder nobody else can enter, gone with its contents at the end of the scope.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::error_code error;
-    const fs::path base = fs::temp_directory_path(error);
-    std::string name = ((error ? fs::path("/tmp") : base) / "tessera-import-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw RunError(fmt::format("no temporary folder can be made: {}", std::strerror(errno)), name,
-                     "free space there or set TMPDIR to a folder that can be written");
-    path_ = name;
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  ~PrivateFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// The importer: in $TESSERA_LIBEXEC, else beside the running program, else where it was installed.
-fs::path importer_program() {
-  constexpr const char* program = "tessera-import";
-  if (const char* folder = std::getenv("TESSERA_LIBEXEC"); folder != nullptr && *folder != '\0')
-    return fs::absolute(fs::path(folder) / program);
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  if (!error && fs::exists(self.parent_path() / program, error))
-    return self.parent_path() / program;
-  return fs::path(TESSERA_IMPORTER_FOLDER) / program;
-}
 
 /// Last line of the importer's output that says something, for people to read.
 std::string last_words(const std::string& output) {
@@ -227,10 +192,10 @@ Domain import_geometry(const GeometrySource& source, Progress& progress) {
   // STEP lengths come in the file's own unit, all others are plain numbers.
   const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
 
-  const PrivateFolder folder;
+  const TemporaryFolder folder;
   const fs::path opened = file_to_open(source, format, folder.path());
   const fs::path result = folder.path() / "domain";
-  const fs::path program = importer_program();
+  const fs::path program = companion_program("tessera-import");
   const ChildEnd end = run_child(
       {program.string(), opened.string(), name, fmt::format("{:.17g}", metres_per_unit(unit)), occ_name(unit),
        fmt::format("{:.17g}", source.tolerance), fmt::format("{:.17g}", source.mesh_size), result.string()},

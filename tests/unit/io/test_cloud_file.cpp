@@ -1,6 +1,6 @@
 #include "core/error.hpp"
 #include "io/cloud_file.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

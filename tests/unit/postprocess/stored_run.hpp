@@ -4,7 +4,7 @@
 #include "io/cloud_file.hpp"
 #include "io/field_series.hpp"
 #include "io/history.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/postprocess/taylor_bar.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "core/error.hpp"
-#include "postprocess/child_process.hpp"
 #include "postprocess/render_job.hpp"
-#include "tests/unit/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,35 +48,6 @@ TEST(RenderJob, OtherTextIsRefused) {
   EXPECT_THROW(render_job_from_json(""), InputError);
   EXPECT_THROW(render_job_from_json("{}"), InputError);
   EXPECT_THROW(render_job_from_json(R"({"drawings": [{"file": 1}], "plots": []})"), InputError);
-}
-
-TEST(ChildProcess, OutputAndStatusComeBack) {
-  const TemporaryFolder folder;
-  const ChildResult result = run_child({"sh", "-c", "echo out; echo err >&2; echo $TMPDIR; exit 7"}, 10,
-                                       folder / "log", folder.path());
-  EXPECT_TRUE(result.started);
-  EXPECT_EQ(result.exit_status, 7);
-  EXPECT_EQ(test::content(folder / "log"), "out\nerr\n" + folder.path().string() + "\n");
-}
-
-TEST(ChildProcess, ASlowOneIsEndedWithItsChildren) {
-  const TemporaryFolder folder;
-  const auto start = std::chrono::steady_clock::now();
-  const ChildResult result =
-      run_child({"sh", "-c", "sleep 60 & echo $!; wait"}, 0.3, folder / "log", folder.path());
-  EXPECT_TRUE(result.timed_out);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
-  const int grandchild = std::stoi(test::content(folder / "log"));
-  // Ended, or ended and not yet collected by init.
-  const std::string status = test::content("/proc/" + std::to_string(grandchild) + "/stat");
-  EXPECT_TRUE(status.empty() || status.find(") Z") != std::string::npos) << status;
-}
-
-TEST(ChildProcess, OneThatDoesNotExistIsNotStarted) {
-  const TemporaryFolder folder;
-  EXPECT_FALSE(run_child({"/nowhere/program"}, 10, folder / "log", folder.path()).started);
-  EXPECT_TRUE(find_program("tessera-no-such-program").empty());
-  EXPECT_FALSE(find_program("sh").empty());
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 /// A folder of the test's own, gone afterwards; and a way to fill the disk without being root.
 #pragma once
 
-#include <cstdlib>
+#include "core/temporary_folder.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -15,23 +16,8 @@
 
 namespace tessera::test {
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "tessera-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+struct TemporaryFolder : tessera::TemporaryFolder {
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 };
 
 inline std::string content(const std::filesystem::path& file) {

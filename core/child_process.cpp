@@ -1,4 +1,4 @@
-#include "preprocess/geometry/child.hpp"
+#include "core/child_process.hpp"
 
 #include "core/interrupt.hpp"
 
@@ -12,8 +12,11 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
+#include <sstream>
+#include <string_view>
 
-namespace tessera::preprocess {
+namespace tessera {
 namespace {
 
 constexpr std::size_t kept_output = 64 * 1024;
@@ -42,7 +45,7 @@ void limit(int resource, std::uint64_t value) {
 }
 
 /// After fork in a program that may have threads: nothing here may allocate. Never returns.
-[[noreturn]] void become(char* const* arguments, const char* folder,
+[[noreturn]] void become(char* const* arguments, char* const* environment, const char* folder,
                          [[maybe_unused]] const ChildLimits& limits, int output, int failure, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -52,15 +55,34 @@ void limit(int resource, std::uint64_t value) {
   ::signal(SIGTERM, SIG_DFL);
   limit(RLIMIT_CORE, 0);
 #ifndef __SANITIZE_ADDRESS__ // its shadow memory alone reserves terabytes
-  limit(RLIMIT_AS, limits.bytes);
+  if (limits.bytes > 0)
+    limit(RLIMIT_AS, limits.bytes);
 #endif
   const int nothing = ::open("/dev/null", O_RDONLY);
   if (nothing >= 0 && ::dup2(nothing, 0) == 0 && ::dup2(output, 1) == 1 && ::dup2(output, 2) == 2 &&
       ::chdir(folder) == 0)
-    ::execv(arguments[0], arguments);
+    ::execve(arguments[0], arguments, environment);
   const int why = errno;
   [[maybe_unused]] const auto written = ::write(failure, &why, sizeof why);
   ::_exit(127);
+}
+
+std::vector<std::string> environment_with_tmpdir(const std::filesystem::path& folder) {
+  std::vector<std::string> entries;
+  for (char** entry = environ; *entry != nullptr; ++entry)
+    if (!std::string_view(*entry).starts_with("TMPDIR="))
+      entries.emplace_back(*entry);
+  entries.push_back("TMPDIR=" + std::filesystem::absolute(folder).string());
+  return entries;
+}
+
+/// What exec wants: pointers to the words and a null at the end. Valid as long as the words are.
+std::vector<char*> pointers(const std::vector<std::string>& words) {
+  std::vector<char*> list;
+  for (const std::string& word : words)
+    list.push_back(const_cast<char*>(word.c_str()));
+  list.push_back(nullptr);
+  return list;
 }
 
 /// Appends what is waiting in the pipe; false at its end.
@@ -91,16 +113,15 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   Descriptor failure(failure_pipe[0]), failure_end(failure_pipe[1]);
   ::fcntl(output.get(), F_SETFL, O_NONBLOCK);
 
-  std::vector<char*> arguments;
-  for (const std::string& word : command)
-    arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
+  const std::vector<std::string> environment = environment_with_tmpdir(folder);
+  const std::vector<char*> arguments = pointers(command), variables = pointers(environment);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid < 0)
     return {ChildEnd::How::not_started, errno, {}, 0};
   if (pid == 0)
-    become(arguments.data(), folder.c_str(), limits, output_end.get(), failure_end.get(), parent);
+    become(arguments.data(), variables.data(), folder.c_str(), limits, output_end.get(), failure_end.get(),
+           parent);
   ::setpgid(pid, pid); // both sides set it, so that neither can be first by luck
   output_end.close();
   failure_end.close();
@@ -112,16 +133,22 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   }
 
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(limits.seconds);
-  bool killed = false, open = true;
+  const auto after = [](double seconds) {
+    return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  };
+  auto deadline = after(limits.seconds);
+  bool asked = false, open = true;
   int status = 0;
   rusage usage{};
   for (;;) {
-    if (!killed && (interrupted() || Clock::now() >= deadline)) {
+    if (!asked && (interrupted() || Clock::now() >= deadline)) {
       end.how = interrupted() ? ChildEnd::How::interrupted : ChildEnd::How::out_of_time;
-      ::kill(-pid, SIGKILL);
-      killed = true;
+      ::kill(-pid, limits.grace > 0 ? SIGTERM : SIGKILL);
+      deadline = after(limits.grace);
+      asked = true;
     }
+    if (asked && Clock::now() >= deadline)
+      ::kill(-pid, SIGKILL);
     const pid_t ended = ::wait4(pid, &status, WNOHANG, &usage);
     if (open)
       open = drain(output.get(), end.output);
@@ -134,11 +161,32 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   if (end.output.size() > kept_output)
     end.output.erase(0, end.output.size() - kept_output);
   end.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-  if (!killed) {
+  if (!asked) {
     end.how = WIFSIGNALED(status) ? ChildEnd::How::signalled : ChildEnd::How::exited;
     end.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
   }
   return end;
 }
 
-} // namespace tessera::preprocess
+std::filesystem::path find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path program = std::filesystem::path(folder) / name;
+    if (::access(program.c_str(), X_OK) == 0 && !std::filesystem::is_directory(program))
+      return program;
+  }
+  return {};
+}
+
+std::filesystem::path companion_program(const std::string& name) {
+  if (const char* folder = std::getenv("TESSERA_LIBEXEC"); folder != nullptr && *folder != '\0')
+    return std::filesystem::absolute(std::filesystem::path(folder) / name);
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error && std::filesystem::exists(self.parent_path() / name, error))
+    return self.parent_path() / name;
+  return std::filesystem::path(TESSERA_PROGRAM_FOLDER) / name;
+}
+
+} // namespace tessera
