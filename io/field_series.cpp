@@ -1,6 +1,6 @@
+#include "io/field_series.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/field_series.hpp"
 #include "io/vtk_arrays.hpp"
 #include "io/vtk_messages.hpp"
 #include "io/vtk_write.hpp"

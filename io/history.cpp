@@ -1,6 +1,6 @@
+#include "io/history.hpp"
 #include "core/error.hpp"
 #include "core/particle_cloud.hpp"
-#include "io/history.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -64,10 +64,15 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   const TemporaryFolder scratch;
   const fs::path file = scratch.path() / "job.json";
   io::write_text(file, to_json(job));
-  // Asked to end first, so that xvfb-run stops its server.
-  const ChildEnd end =
-      run_child({xvfb.string(), "-a", "-s", "-screen 0 1600x1200x24", program.string(), file.string()},
-                scratch.path(), {time_limit, 0, 1.0});
+  const auto draw = [&] { // asked to end before it is killed, so that xvfb-run stops its server
+    return run_child({xvfb.string(), "-a", "-s", "-screen 0 1600x1200x24", program.string(), file.string()},
+                     scratch.path(), {time_limit, 0, 1.0});
+  };
+  ChildEnd end = draw();
+  // xvfb-run looks for a free display and then takes it: a run that starts at the same moment may take it
+  // first, and the renderer ends without a word of its own.
+  if (end.how == ChildEnd::How::exited && end.code != 0 && lines_after("file: ", end.output).empty())
+    end = draw();
   if (end.how == ChildEnd::How::interrupted)
     stop_if_interrupted("drawing");
   std::vector<fs::path> written;

@@ -92,6 +92,9 @@ void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path
     return;
   if (end.code == 3 || speaks_of_memory(end.output))
     throw out_of_memory();
+  if (end.code == 4)
+    throw RunError("the importer cannot write its result", fs::temp_directory_path().string(),
+                   "free space there, or set TMPDIR to a folder with room");
   constexpr std::string_view prefix = "tessera-import: ";
   if (const std::string words = last_words(end.output); words.starts_with(prefix))
     throw InputError(words.substr(prefix.size()), "", "");

@@ -53,7 +53,7 @@ struct Probe {
   std::string name;
   std::string quantity; ///< x y z radius (current position, radius about the Z axis; m) ux uy uz (m) vx vy vz
                         ///< (m/s) plastic_strain von_mises pressure (Pa)
-  std::string reduce; ///< max, min, mean, extent (max - min) over the set
+  std::string reduce;   ///< max, min, mean, extent (max - min) over the set
   std::string on = "all";
 };
 

@@ -48,8 +48,8 @@ TEST_F(IncludeArrows, AllowWhatPointsAlongThem) {
 
 TEST_F(IncludeArrows, NameFileLineAndBothEnds) {
   add("solver/scene/a.cpp", "#include \"io/field_series.hpp\"");
-  EXPECT_EQ(found(),
-            std::vector<std::string>{"solver/scene/a.cpp:2: solver may not include io ('io/field_series.hpp')"});
+  EXPECT_EQ(found(), std::vector<std::string>{
+                         "solver/scene/a.cpp:2: solver may not include io ('io/field_series.hpp')"});
 }
 
 TEST_F(IncludeArrows, EveryWrongDirectionIsFound) {

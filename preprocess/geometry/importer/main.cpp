@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
     std::ofstream out(argv[7], std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
-    return out ? 0 : fail(2, "the result cannot be written");
+    return out ? 0 : fail(4, "the result cannot be written");
   } catch (const std::bad_alloc&) {
     return fail(3, "out of memory");
   } catch (const std::exception& error) {

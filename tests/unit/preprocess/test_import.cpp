@@ -407,6 +407,8 @@ TEST_F(Import, short_altered_or_missing_answers_are_errors) {
   stand_in("echo what a pity; exit 9");
   EXPECT_SAYS(complaint(taylor_bar), "status 9");
   EXPECT_SAYS(complaint(taylor_bar), "what a pity");
+  stand_in("exit 4"); // its disk is full: not the part's fault
+  EXPECT_THROW(import(taylor_bar, "mm"), RunError);
   ::setenv("TESSERA_LIBEXEC", (folder / "nothing").c_str(), 1);
   EXPECT_THROW(import(taylor_bar, "mm"), RunError);
 }
