@@ -12,7 +12,10 @@ namespace {
 
 /// Cell volumes of points in a box, in the points' order.
 std::vector<double> volumes_by_voro(const std::vector<Vec3>& X, const Vec3& upper) {
-  voro::container box(0, upper[0], 0, upper[1], 0, upper[2], 6, 6, 6, false, false, false, 8);
+  // Voro++ takes no point that lies exactly on the far faces: its box is a hair larger.
+  constexpr double hair = 1e-10;
+  voro::container box(-hair, upper[0] + hair, -hair, upper[1] + hair, -hair, upper[2] + hair, 6, 6, 6, false,
+                      false, false, 8);
   for (std::size_t i = 0; i < X.size(); ++i)
     box.put(static_cast<int>(i), X[i][0], X[i][1], X[i][2]);
   std::vector<double> volumes(X.size(), 0);
