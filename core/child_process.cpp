@@ -157,7 +157,10 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
     pollfd waiting{output.get(), POLLIN, 0};
     ::poll(&waiting, open ? 1 : 0, 20);
   }
-  ::kill(-pid, SIGKILL); // what the program itself may have started and left behind
+  // What the program itself may have started and left behind: time to tidy up, then no more.
+  for (const auto last = asked ? deadline : after(limits.grace); Clock::now() < last && ::kill(-pid, 0) == 0;)
+    ::usleep(5000);
+  ::kill(-pid, SIGKILL);
   if (end.output.size() > kept_output)
     end.output.erase(0, end.output.size() - kept_output);
   end.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;

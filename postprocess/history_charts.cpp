@@ -1,5 +1,6 @@
 #include "postprocess/history_charts.hpp"
 
+#include "core/history_columns.hpp"
 #include "postprocess/quantity.hpp"
 
 #include <algorithm>
@@ -9,23 +10,6 @@
 
 namespace tessera::post {
 namespace {
-
-constexpr std::array<std::string_view, 16> common_columns = {"time_s",
-                                                             "step",
-                                                             "dt_s",
-                                                             "kinetic_J",
-                                                             "internal_J",
-                                                             "plastic_J",
-                                                             "dissipated_J",
-                                                             "external_J",
-                                                             "total_J",
-                                                             "balance_error",
-                                                             "linear_momentum_x_kgm_s",
-                                                             "linear_momentum_y_kgm_s",
-                                                             "linear_momentum_z_kgm_s",
-                                                             "angular_momentum_x_kgm2_s",
-                                                             "angular_momentum_y_kgm2_s",
-                                                             "angular_momentum_z_kgm2_s"};
 
 bool has(const io::History& history, const std::string& column) {
   return std::find(history.names.begin(), history.names.end(), column) != history.names.end();
@@ -62,7 +46,7 @@ Unit time_unit(const std::vector<NamedHistory>& runs) {
 std::vector<std::string> probe_columns(const io::History& history) {
   std::vector<std::string> out;
   for (const std::string& name : history.names)
-    if (std::find(common_columns.begin(), common_columns.end(), name) == common_columns.end())
+    if (std::find(history_columns.begin(), history_columns.end(), name) == history_columns.end())
       out.push_back(name);
   return out;
 }

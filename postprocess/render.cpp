@@ -6,9 +6,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <atomic>
 #include <fstream>
 #include <sstream>
+#include <string>
+
+#include <unistd.h>
 
 namespace tessera::post {
 namespace {
@@ -16,6 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double time_limit = 300; ///< s, for all pictures of one job
+
+/// A display of our own. Left to itself xvfb-run takes the first that looks free; a server that is just
+/// ending then removes the new one's socket, and the renderer aborts.
+int display_number() {
+  static std::atomic<int> job = 0;
+  return 1000 + (8 * static_cast<int>(::getpid()) + job++ % 8) % 50000;
+}
 
 /// Lines of `output` that begin with `prefix`, without it.
 std::vector<std::string> lines_after(const std::string& prefix, const std::string& output) {
@@ -64,15 +74,10 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   const TemporaryFolder scratch;
   const fs::path file = scratch.path() / "job.json";
   io::write_text(file, to_json(job));
-  const auto draw = [&] { // asked to end before it is killed, so that xvfb-run stops its server
-    return run_child({xvfb.string(), "-a", "-s", "-screen 0 1600x1200x24", program.string(), file.string()},
-                     scratch.path(), {time_limit, 0, 1.0});
-  };
-  ChildEnd end = draw();
-  // xvfb-run looks for a free display and then takes it: a run that starts at the same moment may take it
-  // first, and the renderer ends without a word of its own.
-  if (end.how == ChildEnd::How::exited && end.code != 0 && lines_after("file: ", end.output).empty())
-    end = draw();
+  // Asked to end before it is killed, so that xvfb-run stops its server.
+  const ChildEnd end = run_child({xvfb.string(), "-n", std::to_string(display_number()), "-a", "-s",
+                                  "-screen 0 1600x1200x24", program.string(), file.string()},
+                                 scratch.path(), {time_limit, 0, 1.0});
   if (end.how == ChildEnd::How::interrupted)
     stop_if_interrupted("drawing");
   std::vector<fs::path> written;

@@ -1,3 +1,4 @@
+#include "core/history_columns.hpp"
 #include "core/interrupt.hpp"
 #include "solver/scene/assemble.hpp"
 #include "solver/scene/observer.hpp"
@@ -76,22 +77,7 @@ class Reporter {
 
  private:
   std::vector<std::string> columns() const {
-    std::vector<std::string> names = {"time_s",
-                                      "step",
-                                      "dt_s",
-                                      "kinetic_J",
-                                      "internal_J",
-                                      "plastic_J",
-                                      "dissipated_J",
-                                      "external_J",
-                                      "total_J",
-                                      "balance_error",
-                                      "linear_momentum_x_kgm_s",
-                                      "linear_momentum_y_kgm_s",
-                                      "linear_momentum_z_kgm_s",
-                                      "angular_momentum_x_kgm2_s",
-                                      "angular_momentum_y_kgm2_s",
-                                      "angular_momentum_z_kgm2_s"};
+    std::vector<std::string> names(history_columns.begin(), history_columns.end());
     for (const Probe& probe : scene_.probes)
       names.push_back(column_name(probe));
     return names;

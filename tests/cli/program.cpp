@@ -17,13 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "tessera-cli-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("no temporary folder");
-  return fs::canonical(name);
-}
-
 std::string read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -31,27 +24,19 @@ std::string read_file(const fs::path& file) {
 
 } // namespace
 
-Workplace::Workplace() : path_(new_folder()), outputs_(new_folder()) {}
-
-Workplace::~Workplace() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-  fs::remove_all(outputs_, ignored);
-}
-
 void Workplace::write(const std::string& name, const std::string& text) const {
-  fs::create_directories((path_ / name).parent_path());
-  std::ofstream(path_ / name, std::ios::binary) << text;
+  fs::create_directories((path() / name).parent_path());
+  std::ofstream(path() / name, std::ios::binary) << text;
 }
 
 std::string Workplace::read(const std::string& name) const {
-  return read_file(path_ / name);
+  return read_file(path() / name);
 }
 
 std::vector<std::string> Workplace::listing() const {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_))
-    names.push_back(fs::relative(entry.path(), path_).string());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path()))
+    names.push_back(fs::relative(entry.path(), path()).string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -62,8 +47,9 @@ pid_t Workplace::start(const std::vector<std::string>& arguments, const Surround
   for (const std::string& argument : arguments)
     argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  const std::string out = surroundings.out_file.empty() ? (outputs_ / "out").string() : surroundings.out_file;
-  const std::string err = (outputs_ / "err").string();
+  const std::string out =
+      surroundings.out_file.empty() ? (outputs_.path() / "out").string() : surroundings.out_file;
+  const std::string err = (outputs_.path() / "err").string();
 
   const pid_t child = ::fork();
   if (child < 0)
@@ -79,7 +65,7 @@ pid_t Workplace::start(const std::vector<std::string>& arguments, const Surround
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
   redirect(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
-  if (::chdir(path_.c_str()) != 0)
+  if (::chdir(path().c_str()) != 0)
     ::_exit(121);
   if (!surroundings.pictures)
     ::setenv("PATH", "/nonexistent", 1);
@@ -97,8 +83,8 @@ Result Workplace::wait(pid_t process) const {
   int status = 0;
   if (::waitpid(process, &status, 0) != process)
     throw std::runtime_error("cannot wait");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(outputs_ / "out"),
-          read_file(outputs_ / "err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          read_file(outputs_.path() / "out"), read_file(outputs_.path() / "err")};
 }
 
 Result Workplace::tessera(const std::vector<std::string>& arguments, const Surroundings& surroundings) const {

@@ -1,6 +1,8 @@
 /// The real program, run as a user would: arguments in, exit status and both outputs back.
 #pragma once
 
+#include "core/temporary_folder.hpp"
+
 #include <sys/types.h>
 
 #include <filesystem>
@@ -17,13 +19,8 @@ struct Result {
 /// A folder of its own, current directory of the programs a test starts, removed at the end.
 class Workplace {
  public:
-  Workplace();
-  ~Workplace();
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return folder_.path(); }
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
   /// Names of everything below the folder, relative to it, sorted.
@@ -48,7 +45,7 @@ class Workplace {
   Result wait(pid_t process) const;
 
  private:
-  std::filesystem::path path_, outputs_;
+  TemporaryFolder folder_, outputs_;
 };
 
 /// Lines of a text.

@@ -2,8 +2,6 @@
 
 #include "core/error.hpp"
 
-#include <stdlib.h>
-
 #include <fstream>
 #include <stdexcept>
 
@@ -52,30 +50,18 @@ std::string with(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "tessera-app-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::file(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
+std::filesystem::path CaseFolder::file(const std::string& name, const std::string& text) const {
+  std::ofstream(path() / name, std::ios::binary) << text;
+  return path() / name;
 }
 
 Case read_text_case(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   return read_case(folder.file("case.toml", text), overrides);
 }
 
 std::string message(const std::string& text, const std::vector<std::string>& overrides) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   try {
     read_case(folder.file("case.toml", text), overrides);
   } catch (const InputError& e) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/case/case.hpp"
+#include "core/temporary_folder.hpp"
 
 #include <filesystem>
 #include <string>
@@ -15,19 +16,9 @@ extern const std::string complete_case;
 /// complete_case with the first occurrence of `from` replaced by `to`; `from` must occur.
 std::string with(const std::string& from, const std::string& to);
 
-/// A folder of its own, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+struct CaseFolder : TemporaryFolder {
   /// Writes a file in it and returns its path.
   std::filesystem::path file(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
 };
 
 /// Reads `text` as "case.toml" of a temporary folder.

@@ -79,7 +79,7 @@ TEST(Case, FixedComponents) {
 }
 
 TEST(Case, GeometryIsRelativeToTheCaseAndMadeAbsolute) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   const Case c = read_case(folder.file("case.toml", complete_case), {});
   EXPECT_EQ(c.geometry.file, fs::weakly_canonical(folder.path() / "bar.step"));
   EXPECT_NE(c.text.find(c.geometry.file.string()), std::string::npos);
@@ -91,7 +91,7 @@ TEST(Case, GeometryTypedOnTheCommandLineIsRelativeToWhereItWasTyped) {
 }
 
 TEST(Case, StoredTextReadsBackAsTheSameCase) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   const Case c =
       read_case(folder.file("case.toml", complete_case), {"particles.count=500", "solver.jst4=0.1"});
   const Case again = read_case(folder.file("stored.toml", c.text), {});
@@ -103,7 +103,7 @@ TEST(Case, StoredTextReadsBackAsTheSameCase) {
 }
 
 TEST(Case, RemembersWhereKeysWereWritten) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   const fs::path file = folder.file("case.toml", complete_case);
   const Case c = read_case(file, {"particles.seed=2"});
   EXPECT_EQ(c.where("geometry.file"), file.string() + ":3:8");
@@ -113,7 +113,7 @@ TEST(Case, RemembersWhereKeysWereWritten) {
 }
 
 TEST(Case, CloudTextIsWhatTheParticlesDependOn) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   const fs::path file = folder.file("case.toml", complete_case);
   const std::string cloud = read_case(file, {}).cloud_text;
   EXPECT_EQ(read_case(file, {"solver.cfl=0.1", "material.young=1e9"}).cloud_text, cloud);
@@ -123,7 +123,7 @@ TEST(Case, CloudTextIsWhatTheParticlesDependOn) {
 }
 
 TEST(Case, NamesItselfAfterFolderAndFile) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   const std::string name = folder.path().filename().string();
   EXPECT_EQ(read_case(folder.file("case.toml", complete_case), {}).name, name);
   EXPECT_EQ(read_case(folder.path(), {}).name, name) << "a folder stands for its case.toml";

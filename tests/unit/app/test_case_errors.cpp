@@ -193,7 +193,7 @@ TEST(CaseErrors, HostileFilesAreRefusedInOneLine) {
 }
 
 TEST(CaseErrors, MissingFileAndFolderWithoutCase) {
-  const TemporaryFolder folder;
+  const CaseFolder folder;
   EXPECT_THROW(read_case(folder.path() / "nothing.toml", {}), InputError);
   try {
     read_case(folder.path(), {});
