@@ -120,8 +120,8 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
   line("memory", fmt::format("{:.1f} MB ({:.0f} bytes a particle)",
                              f.bytes_per_particle * static_cast<double>(o.quality.particles) / 1e6,
                              f.bytes_per_particle));
-  line("time",
-       fmt::format("about {} on {} thread{}", duration(f.seconds), threads(), threads() == 1 ? "" : "s"));
+  line("time", fmt::format("at least {} on {} thread{}: a body that is compressed takes more steps",
+                           duration(f.seconds), threads(), threads() == 1 ? "" : "s"));
   return text;
 }
 
