@@ -54,7 +54,10 @@ struct Grammar {
         ->expected(1);
     compare_command->add_option("folders", o.folders, "Folders of runs")->type_name("DIR")->required();
     for (CLI::App* command : {run_command, prepare_command, solve_command, compare_command})
-      command->add_option("-o,--output", o.output, "Folder to write to (runs/NAME unless given)")
+      command
+          ->add_option("-o,--output", o.output,
+                       "Folder to write to (unless given, runs/NAME with NAME from the case: its folder, and "
+                       "-FILE where the file is not case.toml)")
           ->type_name("DIR");
     for (CLI::App* command : {run_command, prepare_command})
       command->add_flag("--cells", o.cells, "Also write the Voronoi cells (cells.vtu)");

@@ -1,5 +1,5 @@
 #include "app/command_line.hpp"
-#include "app/waiting_threads.hpp"
+#include "app/short_spins.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "core/parallel.hpp"
@@ -19,7 +19,7 @@ int fail(const std::string& line, tessera::ExitStatus status) {
 
 int main(int argc, char** argv) {
   using tessera::ExitStatus;
-  tessera::app::let_waiting_threads_sleep(argv);
+  tessera::app::spin_shortly(argv);
   tessera::catch_interrupts();
   std::signal(SIGXFSZ, SIG_IGN); // a file grown too large is an error of write(), as a full disk is
   std::signal(SIGPIPE, SIG_IGN);

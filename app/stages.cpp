@@ -34,13 +34,8 @@ void require_cad_file(const Case& the_case) {
 
 void require_sets(const Case& the_case, const ParticleCloud& cloud) {
   const auto require_set = [&](const std::string& name, const std::string& key) {
-    if (name == "all" || cloud.has_set(name))
-      return;
-    try {
-      cloud.set(name);
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}: {}", key, e.what()), the_case.where(key), "");
-    }
+    if (name != "all")
+      cloud.set(name, the_case.where(key));
   };
   const solver::SceneSpec& scene = the_case.scene;
   for (std::size_t i = 0; i < scene.initial.size(); ++i)
@@ -120,9 +115,9 @@ std::string describe(const Case& the_case, const solver::Summary& s, const fs::p
   for (const auto& [name, value] : s.probes)
     line(name, value, "");
   if (the_case.scene.material.plasticity)
-    line("largest plastic strain", s.max_equivalent_plastic_strain, "");
-  line("largest von Mises stress", s.max_von_mises, "Pa");
-  line("smallest J", s.min_jacobian, "");
+    line("largest plastic strain", s.extremes.equivalent_plastic_strain, "");
+  line("largest von Mises stress", s.extremes.von_mises, "Pa");
+  line("smallest J", s.extremes.jacobian, "");
   line("energy balance error", s.energy.balance_error, "");
   text += fmt::format("results in {}: summary.json, history.csv, fields.pvd (ParaView)", folder.string());
   for (const fs::path& file : drawn)

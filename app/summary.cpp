@@ -56,11 +56,11 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
                     {"plastic", s.energy.plastic},   {"dissipated", s.energy.dissipated},
                     {"external", s.energy.external}, {"balance_error", s.energy.balance_error}};
   json["momentum"] = {{"linear_drift", s.linear_drift}, {"angular_drift", s.angular_drift}};
-  json["max"] = {{"equivalent_plastic_strain", s.max_equivalent_plastic_strain},
-                 {"von_mises", s.max_von_mises},
-                 {"pressure", s.max_pressure},
-                 {"displacement", s.max_displacement}};
-  json["min"] = {{"jacobian", s.min_jacobian}};
+  json["max"] = {{"equivalent_plastic_strain", s.extremes.equivalent_plastic_strain},
+                 {"von_mises", s.extremes.von_mises},
+                 {"pressure", s.extremes.pressure},
+                 {"displacement", s.extremes.displacement}};
+  json["min"] = {{"jacobian", s.extremes.jacobian}};
   json["extent_min"] = list(s.extent_min);
   json["extent_max"] = list(s.extent_max);
   json["probes"] = Json::object();

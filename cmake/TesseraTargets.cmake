@@ -38,7 +38,7 @@ function(tessera_program name)
 endfunction()
 
 # Tests run side by side: each on one thread unless it asks for more itself, and no thread spins while it waits.
-set(tessera_test_environment "OMP_NUM_THREADS=1;OMP_WAIT_POLICY=passive")
+set(tessera_test_environment "OMP_NUM_THREADS=1;GOMP_SPINCOUNT=2000")
 
 # tessera_test(NAME LABEL unit|verification|regression|cli SOURCES ... LINK ... [TIMEOUT seconds]): GoogleTest
 # executable whose cases CTest lists one by one under that label.

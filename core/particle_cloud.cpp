@@ -42,11 +42,7 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
   return best;
 }
 
-bool ParticleCloud::has_set(const std::string& name) const {
-  return std::any_of(sets.begin(), sets.end(), [&](const ParticleSet& s) { return s.name == name; });
-}
-
-const ParticleSet& ParticleCloud::set(const std::string& name) const {
+const ParticleSet& ParticleCloud::set(const std::string& name, const std::string& where) const {
   for (const ParticleSet& s : sets)
     if (s.name == name)
       return s;
@@ -54,7 +50,7 @@ const ParticleSet& ParticleCloud::set(const std::string& name) const {
   for (const ParticleSet& s : sets)
     names.push_back(s.name);
   const std::string nearest = nearest_name(name, names);
-  throw InputError(fmt::format("no particle set is named '{}'", name), "",
+  throw InputError(fmt::format("no particle set is named '{}'", name), where,
                    fmt::format("{}the cloud has: {}",
                                nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest),
                                names.empty() ? "no sets" : fmt::format("{}", fmt::join(names, ", "))));

@@ -39,9 +39,9 @@ struct ParticleCloud {
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
 
-  /// The set of that name; InputError with the nearest name and the list of sets where there is none.
-  const ParticleSet& set(const std::string& name) const;
-  bool has_set(const std::string& name) const;
+  /// The set of that name; InputError with the nearest name and the list of sets where there is none. `where`
+  /// is the place that asks for it, for the message.
+  const ParticleSet& set(const std::string& name, const std::string& where = "") const;
 
   /// Throws InputError naming `origin` unless all arrays agree in length, all numbers are finite, every V is
   /// positive and every set's indices are in range.

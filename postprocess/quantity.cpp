@@ -97,7 +97,7 @@ Quantity field_quantity(const std::string& name) {
   if (name == "VonMises")
     return {"von Mises stress", "Pa", Palette::from_zero, 0};
   if (name == "Pressure")
-    return {"Pressure", "Pa", Palette::diverging, 0};
+    return {"Pressure (tension positive)", "Pa", Palette::diverging, 0};
   if (name == "Stress")
     return {"Cauchy stress", "Pa", Palette::diverging, 0};
   if (name == "Velocity")

@@ -211,11 +211,13 @@ solver::Probe read_probe(Table table) {
 post::Picture read_picture(Table table, const std::vector<post::Picture>& earlier) {
   post::Picture picture;
   picture.name = table.name("name");
-  picture.field = table.choice("field", {"PlasticStrain", "VonMises", "Pressure", "Displacement", "Velocity",
-                                         "Stress", "J", "volume"});
+  picture.field = table.choice("field", {"PlasticStrain", "VonMises", "Pressure", "Displacement",
+                                         "Displacement.x", "Displacement.y", "Displacement.z", "Velocity",
+                                         "Velocity.x", "Velocity.y", "Velocity.z", "Stress.xx", "Stress.yy",
+                                         "Stress.zz", "Stress.xy", "Stress.yz", "Stress.xz", "J", "volume"});
   picture.view =
       table.choice_or("view", picture.view, {"front", "back", "left", "right", "top", "bottom", "iso"});
-  picture.clip = table.choice_or("clip", "", {"", "x", "y", "z"});
+  picture.clip = table.choice_or("clip", "", {"x", "y", "z"});
   picture.frame = table.number_or_word("frame", picture.frame);
   picture.minimum = table.optional_number("minimum");
   picture.maximum = table.optional_number("maximum");

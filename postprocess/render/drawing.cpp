@@ -362,7 +362,8 @@ void draw_particles(const Drawing& asked) {
   draw_bar(canvas, scale, quantity, range, canvas.width() - bar_column);
   const double column = canvas.width() - bar_column;
   draw_length(canvas, layout.metres_per_pixel, {column, caption_height - 36});
-  draw_axes(canvas, view, {column + 70, 54});
+  const bool downwards = (view.up.array() < -0.1f).any(); // arrows that point down need their room below
+  draw_axes(canvas, view, {column + 70, downwards ? 78.0 : 54.0});
   canvas.save(drawing.file);
 }
 

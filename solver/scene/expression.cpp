@@ -24,7 +24,7 @@ Expression::Expression(const std::string& formula) : parser_(std::make_shared<Pa
   } catch (const mu::Parser::exception_type& error) {
     throw InputError(
         fmt::format("the formula \"{}\" cannot be read at position {}", formula, error.GetPos() + 1), "",
-        error.GetMsg());
+        "check the names and signs there");
   }
 }
 

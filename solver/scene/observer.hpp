@@ -65,19 +65,28 @@ class FrameArrays {
     return {cloud.X, displacement_, velocity_, plastic_strain_, von_mises_, pressure_};
   }
 
-  /// Fills the extremes of the summary.
-  void extremes(const ParticleCloud& cloud, Summary& summary) const {
-    summary.max_equivalent_plastic_strain = *std::max_element(plastic_strain_.begin(), plastic_strain_.end());
-    summary.max_von_mises = *std::max_element(von_mises_.begin(), von_mises_.end());
-    summary.max_pressure = *std::max_element(pressure_.begin(), pressure_.end());
-    summary.min_jacobian = *std::min_element(jacobian_.begin(), jacobian_.end());
-    summary.max_displacement = 0;
+  /// Widens the largest and smallest values seen so far to these fields.
+  void widen(Extremes& extremes) const {
+    const auto largest = [](double so_far, const std::vector<double>& values) {
+      return std::max(so_far, *std::max_element(values.begin(), values.end()));
+    };
+    extremes.equivalent_plastic_strain = largest(extremes.equivalent_plastic_strain, plastic_strain_);
+    extremes.von_mises = largest(extremes.von_mises, von_mises_);
+    extremes.pressure = largest(extremes.pressure, pressure_);
+    extremes.jacobian = std::min(extremes.jacobian, *std::min_element(jacobian_.begin(), jacobian_.end()));
+    for (std::size_t a = 0; a < jacobian_.size(); ++a)
+      extremes.displacement =
+          std::max(extremes.displacement,
+                   std::hypot(displacement_[3 * a], displacement_[3 * a + 1], displacement_[3 * a + 2]));
+  }
+
+  /// Corners of the box around the current positions, m.
+  void extent(const ParticleCloud& cloud, Vec3& lower, Vec3& upper) const {
     for (std::size_t a = 0; a < cloud.X.size(); ++a) {
-      const Vec3 u(displacement_[3 * a], displacement_[3 * a + 1], displacement_[3 * a + 2]);
-      const Vec3 x = cloud.X[a] + u;
-      summary.max_displacement = std::max(summary.max_displacement, u.norm());
-      summary.extent_min = a == 0 ? x : Vec3(summary.extent_min.cwiseMin(x));
-      summary.extent_max = a == 0 ? x : Vec3(summary.extent_max.cwiseMax(x));
+      const Vec3 x =
+          cloud.X[a] + Vec3(displacement_[3 * a], displacement_[3 * a + 1], displacement_[3 * a + 2]);
+      lower = a == 0 ? x : Vec3(lower.cwiseMin(x));
+      upper = a == 0 ? x : Vec3(upper.cwiseMax(x));
     }
   }
 

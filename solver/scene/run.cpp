@@ -63,9 +63,11 @@ class Reporter {
   }
 
   void summarise(Summary& summary) {
-    arrays_.fill(assembly_.body, cloud_);
-    arrays_.extremes(cloud_, summary);
+    summary.extremes = extremes_;
     summary.energy = energy_;
+    summary.energy.balance_error = worst_balance_;
+    arrays_.fill(assembly_.body, cloud_);
+    arrays_.extent(cloud_, summary.extent_min, summary.extent_max);
     const Momenta now = momenta(assembly_.body);
     const auto relative = [](double change, double scale) { return scale > 0 ? change / scale : change; };
     summary.linear_drift = relative((now.linear - momenta_start_.linear).norm(), linear_scale_);
@@ -99,6 +101,9 @@ class Reporter {
     energy_ = energies(assembly_.body, assembly_.step);
     largest_ = std::max(largest_, energy_.kinetic + energy_.internal + energy_.plastic);
     energy_.balance_error = largest_ > 0 ? std::abs(total(energy_) - total_start_) / largest_ : 0;
+    worst_balance_ = std::max(worst_balance_, energy_.balance_error);
+    arrays_.fill(assembly_.body, cloud_);
+    arrays_.widen(extremes_);
     if (!outputs_.history_row)
       return;
     const Momenta m = momenta(assembly_.body);
@@ -114,11 +119,8 @@ class Reporter {
                                energy_.balance_error};
     row.insert(row.end(), m.linear.begin(), m.linear.end());
     row.insert(row.end(), m.angular.begin(), m.angular.end());
-    if (!probes_.empty()) {
-      arrays_.fill(assembly_.body, cloud_);
-      for (const ProbeReader& probe : probes_)
-        row.push_back(probe.read(arrays_.probe_fields(cloud_)));
-    }
+    for (const ProbeReader& probe : probes_)
+      row.push_back(probe.read(arrays_.probe_fields(cloud_)));
     outputs_.history_row(row);
   }
 
@@ -140,6 +142,8 @@ class Reporter {
   double linear_scale_ = 0, angular_scale_ = 0;
   double total_start_ = 0, largest_ = 0;
   Energies energy_;
+  double worst_balance_ = 0;
+  Extremes extremes_;
   double history_due_ = next(0, scene_.history_rows), frame_due_ = next(0, scene_.frames);
   std::int64_t last_row_ = -1, last_frame_ = -1;
 };

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,7 +81,16 @@ struct SceneSpec {
 
 struct Energies {
   double kinetic = 0, internal = 0, plastic = 0, dissipated = 0, external = 0; ///< J
-  double balance_error = 0; ///< |what is unaccounted for| / largest total so far
+  double balance_error = 0; ///< |what is unaccounted for| / largest total so far; the worst in a Summary
+};
+
+/// Largest and smallest values over the particles and over the run, as far as its history rows saw them.
+struct Extremes {
+  double equivalent_plastic_strain = 0;
+  double von_mises = 0;                                       ///< Pa
+  double pressure = -std::numeric_limits<double>::infinity(); ///< Pa, positive in tension
+  double displacement = 0;                                    ///< m
+  double jacobian = std::numeric_limits<double>::infinity();  ///< the smallest
 };
 
 /// What a run came to; keys of summary.json carry the same names.
@@ -97,8 +107,7 @@ struct Summary {
   Energies energy;
   double linear_drift = 0;  ///< |P(t) - P(0)| / sum |V p(0)|, only meaningful on free bodies
   double angular_drift = 0; ///< the same for the angular momentum
-  double max_equivalent_plastic_strain = 0, max_von_mises = 0, max_pressure = 0, max_displacement = 0;
-  double min_jacobian = 0;
+  Extremes extremes;
   Vec3 extent_min = Vec3::Zero(), extent_max = Vec3::Zero(); ///< of the last positions, m
   std::vector<std::pair<std::string, double>> probes;        ///< last value of each
 };

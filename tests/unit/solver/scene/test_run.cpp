@@ -60,7 +60,7 @@ TEST(Run, HandsOutFramesHistoryAndSummary) {
   EXPECT_EQ(summary.formulation, "pF");
   EXPECT_EQ(summary.probes[0].first, "radius_m");
   EXPECT_EQ(summary.probes[0].second, recorded.rows.back()[recorded.columns.size() - 2]);
-  EXPECT_GT(summary.max_equivalent_plastic_strain, 0.1);
+  EXPECT_GT(summary.extremes.equivalent_plastic_strain, 0.1);
   EXPECT_GE(summary.extent_min[2], 0);
 }
 

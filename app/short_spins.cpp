@@ -1,4 +1,4 @@
-#include "app/waiting_threads.hpp"
+#include "app/short_spins.hpp"
 
 #include <cstdlib>
 
@@ -6,10 +6,10 @@
 
 namespace tessera::app {
 
-void let_waiting_threads_sleep(char** argv) {
+void spin_shortly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr)
     return;
-  if (::setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+  if (::setenv("GOMP_SPINCOUNT", "2000", 1) == 0)
     ::execv("/proc/self/exe", argv);
 }
 
