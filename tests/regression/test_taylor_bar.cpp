@@ -78,6 +78,8 @@ TEST(TaylorBar, OnATwoPassVoronoiCloud) {
   EXPECT_LT(bar.quality.volume_error, 1e-12);
   EXPECT_GE(bar.quality.spacing_min_over_h, 0.39);
   EXPECT_EQ(bar.summary.time, 80e-6);
+  // Of this seed's cloud: the outermost particle of others scatters by more (6.08 mm with seed 2, 7.10 with
+  // 3).
   EXPECT_NEAR(bar.probe("radius_m") / thesis_radius, 1, 0.12);
   EXPECT_LT(bar.height_of_largest_strain(), 1e-3);
   EXPECT_LT(bar.summary.energy.balance_error, 0.01);
