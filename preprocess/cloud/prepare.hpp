@@ -6,6 +6,8 @@
 #include "core/progress.hpp"
 #include "preprocess/cloud/quality.hpp"
 #include "preprocess/geometry/domain.hpp"
+#include "preprocess/seeding/lattice.hpp"
+#include "preprocess/seeding/size_field.hpp"
 
 #include <cstdint>
 #include <string>
@@ -33,16 +35,24 @@ struct SetSelector {
   double tolerance = 0;
 };
 
-enum class Arrangement { lattice, voronoi };
+enum class Arrangement { lattice, voronoi, poisson };
 enum class Subvolumes { voronoi, uniform };
+/// Who cuts the cells inside the body: this project's clipper on CGAL's neighbours, or Voro++.
+enum class Backend { clipper, voro };
 
 struct ParticleRequest {
   Arrangement arrangement = Arrangement::lattice;
   Subvolumes subvolumes = Subvolumes::voronoi;
-  double spacing = 0;      ///< m; exactly one of spacing and count is positive
-  std::int64_t count = 0;  ///< particles wanted; reached within 2 % where the arrangement allows
-  std::uint64_t seed = 1;  ///< Mersenne twister
-  double merge = 0.5;      ///< vertices of the first pass nearer than merge * (V/N)^(1/3) become one particle
+  LatticeKind lattice = LatticeKind::cubic;
+  double spacing = 0;     ///< m, away from refinements; exactly one of spacing and count is positive
+  std::int64_t count = 0; ///< particles wanted; reached within 2 % where the arrangement allows
+  std::uint64_t seed = 1; ///< Mersenne twister
+  double merge = 0.5;     ///< vertices of the first pass nearer than merge * (V/N)^(1/3) become one particle
+  int relax_seeds = 0;    ///< Lloyd sweeps on the seeds of a two-pass cloud
+  int relax = 0;          ///< constrained Lloyd sweeps on the particles of an irregular cloud
+  std::vector<Refinement> refine; ///< finer regions of an irregular cloud
+  bool sizes_from_mesh = false;   ///< also: spacing in proportion to the edges of the domain's tetrahedra
+  Backend backend = Backend::clipper;
   bool keep_cells = false; ///< also return the polyhedra
   std::vector<SetSelector> sets;
 };

@@ -9,14 +9,49 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tessera::preprocess {
 
+/// A body described by numbers instead of a file: the name of one of known_shapes() and its lengths in m, in
+/// the order of ShapeKind::lengths.
+struct ShapeSpec {
+  std::string name;
+  std::vector<std::vector<double>> lengths;
+};
+
+/// A shape this program can build itself. Boxes, plates and profiles begin at the origin, cylinders, tubes
+/// and spheres are centred on it, their axis is z with the base at z = 0.
+struct ShapeKind {
+  struct Length {
+    std::string name; ///< key of the case file
+    int components;   ///< 1, or the dimension for `size`
+  };
+  std::string name;
+  int dimension;
+  std::vector<Length> lengths;
+  std::vector<std::string> surfaces; ///< names of its sets: "x_min", "side", "bore"...
+};
+
+/// 3-D: box, cylinder, sphere, tube, plate_with_hole, l_part, t_part. 2-D: rectangle, disc, ring,
+/// plate_with_hole, l_part, t_part.
+const std::vector<ShapeKind>& known_shapes();
+
+/// Either a file or a shape.
 struct GeometrySource {
-  std::filesystem::path file; ///< .step/.stp, .brep, .geo, .msh (4.1, 2.2), .stl
-  std::string unit;   ///< what one unit of the file is: "m", "cm", "mm", "um", "in"; STEP converts to it
-  bool trust = false; ///< a .geo file may run programs; refused unless trusted
+  std::filesystem::path file; ///< .step/.stp, .iges/.igs, .brep, .geo, .msh (4.1, 2.2), .stl, .obj, .ply
+  std::string unit; ///< what one unit of the file is: "m", "cm", "mm", "um", "in"; STEP converts to it
+  std::optional<ShapeSpec> shape; ///< instead of `file` and `unit`
+  int dimension = 3;              ///< 2: the plane surfaces of the file, in the plane z = const
+  bool trust = false;             ///< a .geo file may run programs; refused unless trusted
+  int solid = 0; ///< which solid of a file with several, counted from 1; 0: there must be only one
+  /// Holes of a triangle surface (STL, OBJ, PLY) with at most this many edges are closed; 0: none is.
+  int close_holes = 0;
+  /// The mesh follows the background size field of the .geo file (needed by particles that take their sizes
+  /// from the mesh).
+  bool background_sizes = false;
   double tolerance =
       1e-3;             ///< largest |mesh volume - CAD volume| / CAD volume: curved faces are refined to it
   double mesh_size = 0; ///< largest tetrahedron edge, m; 0: a tenth of the bounding box's diagonal

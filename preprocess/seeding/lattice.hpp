@@ -12,6 +12,10 @@ namespace tessera::preprocess {
 /// Points within this fraction of the spacing of the boundary count as on it, inside or out.
 inline constexpr double lattice_band = 0.02;
 
+/// In the plane, cubic means square, hexagonal means triangular rows; body-centred is for bodies only.
+/// Hexagonal in space is the close packing of layers ABAB.
+enum class LatticeKind { cubic, body_centred, hexagonal };
+
 struct Lattice {
   Vec3 origin = Vec3::Zero();           ///< m
   double spacing = 0;                   ///< m

@@ -10,6 +10,7 @@
 namespace tessera::preprocess {
 
 /// Where a particle sits: a corner (entity: the domain's vertex), a curve, a surface, or inside (entity -1).
+/// In a slab: a corner, a curve (entity: the wall's surface), or inside (dimension 2, entity -1).
 struct CadPlace {
   std::uint8_t dimension = 3;
   std::int32_t entity = -1;

@@ -19,7 +19,7 @@ struct Face {
 } // namespace
 
 Scaling scaling_for(const Domain& domain, double spacing) {
-  return {(domain.lower + domain.upper) / 2, std::exp2(std::round(std::log2(spacing)))};
+  return {(domain.lower + domain.upper) / 2, std::exp2(std::round(std::log2(spacing))), domain.dimension};
 }
 
 TetBody::TetBody(const Domain& body, const Scaling& to) : domain(&body), scaling(to) {

@@ -10,13 +10,20 @@
 
 namespace tessera::preprocess {
 
-/// x' = (x - centre) / length. The length is a power of two, so that scaling rounds nothing.
+/// x' = (x - centre) / length. The length is a power of two, so that scaling rounds nothing. The thickness of
+/// a slab (z) stays as it is.
 struct Scaling {
   Vec3 centre = Vec3::Zero(); ///< m
   double length = 1;          ///< m
+  int dimension = 3;
 
-  Vec3 in(const Vec3& X) const { return (X - centre) / length; }
-  Vec3 out(const Vec3& X) const { return centre + length * X; }
+  Vec3 in(const Vec3& X) const { return (X - centre).cwiseProduct(factors(1 / length)); }
+  Vec3 out(const Vec3& X) const { return centre + X.cwiseProduct(factors(length)); }
+  double volume() const { return dimension == 2 ? length * length : length * length * length; } ///< m^d
+  double area() const { return dimension == 2 ? length : length * length; } ///< of boundary, m^(d-1)
+
+ private:
+  Vec3 factors(double f) const { return {f, f, dimension == 2 ? 1.0 : f}; }
 };
 
 /// Centre of the bounding box, and the power of two nearest to `spacing` (m).
