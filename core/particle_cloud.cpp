@@ -78,6 +78,12 @@ void ParticleCloud::validate(const std::string& origin) const {
       require(i >= 0 && static_cast<std::size_t>(i) < n, fmt::format("set '{}' names particle {}", s.name, i),
               origin, "prepare the cloud again");
   }
+  require(sight.empty() || sight.size() == n, "the cloud's arrays differ in length", origin,
+          "prepare it again");
+  for (const auto& [a, b] : hidden.pairs())
+    require(a >= 0 && a < b && static_cast<std::size_t>(b) < n,
+            fmt::format("the hidden pair {}, {} names no two particles", a, b), origin,
+            "prepare the cloud again");
 }
 
 } // namespace tessera

@@ -1,6 +1,7 @@
 /// The particles a body is made of: what the preprocessor hands to the solver. Immutable once assembled.
 #pragma once
 
+#include "core/hidden_pairs.hpp"
 #include "core/tensor.hpp"
 
 #include <cstdint>
@@ -29,13 +30,19 @@ struct ParticleCloud {
   std::string arrangement;  ///< "lattice", "voronoi" or "poisson"
   std::string subvolumes;   ///< "voronoi" (exact clipped cells) or "uniform" (volume / particles)
 
-  std::vector<Vec3> X;        ///< positions, m
-  std::vector<double> V;      ///< subvolumes, m^3
-  std::vector<Vec3> A;        ///< outward boundary area vectors, m^2; zero inside
+  std::vector<Vec3> X;   ///< positions, m
+  std::vector<double> V; ///< subvolumes, m^3
+  /// Outward boundary area vectors, m^2; zero inside. Sum A = 0 and sum X (x) A = (sum V) I exactly: what the
+  /// exact boundary integrals satisfy holds for the particles' own positions too.
+  std::vector<Vec3> A;
   std::vector<Vec3> centroid; ///< of the subvolumes, m
   std::vector<std::uint8_t>
       cad_dimension; ///< 0 corner, 1 edge, 2 face, 3 inside (2-D: 0 corner, 1 edge, 2 inside)
   std::vector<ParticleSet> sets;
+  /// Pairs within `sight` that cannot see each other: the way between their cells' centroids leaves the body.
+  HiddenPairs hidden;
+  /// Up to which distance each particle's hidden pairs are listed, m. Empty: nobody looked, all see all.
+  std::vector<double> sight;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
 

@@ -1,7 +1,7 @@
 /// The corrected kernel Laplacian as constant edge weights.
 #pragma once
 
-#include "solver/operators/neighbours.hpp"
+#include "core/neighbours.hpp"
 
 #include <span>
 #include <vector>

@@ -8,22 +8,23 @@
 
 namespace tessera::solver {
 
-Neighbours uniform_support(std::span<const Vec3> X, double radius) {
-  return find_neighbours(X, std::vector<double>(X.size(), radius));
+Neighbours uniform_support(std::span<const Vec3> X, double radius, const HiddenPairs& hidden) {
+  return find_neighbours(X, std::vector<double>(X.size(), radius), hidden);
 }
 
 template <int D>
-Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours) {
+Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours,
+                            const HiddenPairs& hidden) {
   require(static_cast<std::size_t>(neighbours) < X.size(),
           fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()),
           "solver.neighbours", "ask for fewer, or for more particles");
   constexpr double ill_conditioned = 1e3;
   // The kernel vanishes at its radius: a little beyond the last neighbour, so that it counts.
-  std::vector<double> support = distance_to_nearest(X, neighbours);
+  std::vector<double> support = distance_to_nearest(X, neighbours, hidden);
   for (double& radius : support)
     radius *= 1.02;
   for (int round = 0; round < 10; ++round) {
-    Neighbours found = find_neighbours(X, support);
+    Neighbours found = find_neighbours(X, support, hidden);
     std::vector<std::uint8_t> grow(X.size(), 0);
     for_each(found.size(), [&](std::int64_t a) {
       grow[a] = !(condition_number<D>(moment_matrix<D>(a, X, V, found)) < ill_conditioned);
@@ -37,10 +38,13 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
     if (!any)
       return found;
   }
-  return find_neighbours(X, std::move(support)); // build_gradient names the particle that is still singular
+  return find_neighbours(X, std::move(support),
+                         hidden); // build_gradient names the particle that is still singular
 }
 
-template Neighbours adaptive_support<2>(std::span<const Vec3>, std::span<const double>, int);
-template Neighbours adaptive_support<3>(std::span<const Vec3>, std::span<const double>, int);
+template Neighbours adaptive_support<2>(std::span<const Vec3>, std::span<const double>, int,
+                                        const HiddenPairs&);
+template Neighbours adaptive_support<3>(std::span<const Vec3>, std::span<const double>, int,
+                                        const HiddenPairs&);
 
 } // namespace tessera::solver

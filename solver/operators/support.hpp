@@ -1,8 +1,8 @@
 /// Kernel radii: one for all on lattices, each particle's own on irregular clouds.
 #pragma once
 
+#include "core/neighbours.hpp"
 #include "core/tensor.hpp"
-#include "solver/operators/neighbours.hpp"
 
 #include <span>
 #include <vector>
@@ -10,12 +10,13 @@
 namespace tessera::solver {
 
 /// The same radius for every particle.
-Neighbours uniform_support(std::span<const Vec3> X, double radius);
+Neighbours uniform_support(std::span<const Vec3> X, double radius, const HiddenPairs& hidden = {});
 
-/// Each particle's smallest radius that holds `neighbours` others and whose moment matrix is conditioned
-/// better than 1e3 (the radius grows by tenths until it is). InputError when the cloud has not that many
-/// particles.
+/// Each particle's smallest radius that holds `neighbours` others it sees and whose moment matrix is
+/// conditioned better than 1e3 (the radius grows by tenths until it is). InputError when the cloud has not
+/// that many particles.
 template <int D>
-Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours);
+Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours,
+                            const HiddenPairs& hidden = {});
 
 } // namespace tessera::solver

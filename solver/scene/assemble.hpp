@@ -11,6 +11,8 @@
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,14 +28,28 @@ struct Assembly {
 };
 
 /// The graph a scene's `support` or `neighbours` asks for.
+///
+/// Throws InputError where a support reaches farther than the cloud's particles were tested to see each
+/// other.
 template <int D>
 Neighbours build_graph(const SceneSpec& scene, const ParticleCloud& cloud) {
   constexpr double lattice_support = 2.2;
-  if (scene.support)
-    return uniform_support(cloud.X, *scene.support * cloud.spacing);
-  if (cloud.arrangement == "lattice")
-    return uniform_support(cloud.X, lattice_support * cloud.spacing);
-  return adaptive_support<D>(cloud.X, cloud.V, scene.neighbours);
+  const auto supported = [&] {
+    if (scene.support)
+      return uniform_support(cloud.X, *scene.support * cloud.spacing, cloud.hidden);
+    if (cloud.arrangement == "lattice")
+      return uniform_support(cloud.X, lattice_support * cloud.spacing, cloud.hidden);
+    return adaptive_support<D>(cloud.X, cloud.V, scene.neighbours, cloud.hidden);
+  };
+  Neighbours graph = supported();
+  for (std::size_t a = 0; a < cloud.sight.size(); ++a)
+    require(
+        graph.support[a] <= cloud.sight[a],
+        fmt::format("particle {} has a support of {:.4g} m, but which others it sees past slots and holes "
+                    "is known up to {:.4g} m only",
+                    a, graph.support[a], cloud.sight[a]),
+        "cloud", "prepare the cloud with particles.sight as large, or ask for a smaller support");
+  return graph;
 }
 
 template <int D>

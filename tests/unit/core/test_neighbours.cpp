@@ -1,4 +1,4 @@
-#include "solver/operators/neighbours.hpp"
+#include "core/neighbours.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <random>
 
 using namespace tessera;
-using namespace tessera::solver;
 
 namespace {
 

@@ -1,16 +1,18 @@
 /// Who interacts with whom: a symmetric relation fixed in the reference configuration.
 #pragma once
 
+#include "core/hidden_pairs.hpp"
 #include "core/tensor.hpp"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace tessera::solver {
+namespace tessera {
 
 /// Compressed rows: the neighbours of particle a are column[row[a]] ... column[row[a + 1] - 1], ascending, a
-/// excluded. b is a neighbour of a exactly when a is one of b: |X_a - X_b| < max(support_a, support_b).
+/// excluded. b is a neighbour of a exactly when a is one of b: |X_a - X_b| < max(support_a, support_b) and
+/// the two see each other.
 struct Neighbours {
   std::vector<std::int64_t> row;
   std::vector<std::int32_t> column;
@@ -26,10 +28,11 @@ struct Neighbours {
   }
 };
 
-/// All pairs within the supports (positions in m; z = 0 in plane strain).
-Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support);
+/// All pairs within the supports that see each other (positions in m; z = 0 in plane strain).
+Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support,
+                           const HiddenPairs& hidden = {});
 
-/// Each particle's distance to its k-th nearest other particle, m. k < number of particles.
-std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k);
+/// Each particle's distance to the k-th nearest of the others it sees, m. Everybody must see k others.
+std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden = {});
 
-} // namespace tessera::solver
+} // namespace tessera
