@@ -28,6 +28,9 @@ CadTopology::CadTopology(const Domain& domain) {
   std::int32_t curves = 0;
   for (const auto& edge : domain.feature_edges)
     curves = std::max(curves, edge.curve + 1);
+  const bool plane = domain.dimension == 2;
+  if (plane)
+    curves = std::max(curves, static_cast<std::int32_t>(domain.surfaces.size()));
   curve_surfaces_.resize(curves);
   curve_corners_.resize(curves);
   corner_surfaces_.resize(domain.corners.size());
@@ -55,7 +58,7 @@ CadTopology::CadTopology(const Domain& domain) {
     for (std::int32_t k = 0; k < 3; ++k) {
       const auto [a, b] = std::minmax(facet.vertices[k], facet.vertices[(k + 1) % 3]);
       sides.push_back({{a, b}, -1, f, k});
-      if (is_corner(facet.vertices[k]))
+      if (is_corner(facet.vertices[k]) && facet.surface != Domain::lid)
         corner_surfaces_[corner_[facet.vertices[k]]].push_back(facet.surface);
     }
   }
@@ -71,10 +74,15 @@ CadTopology::CadTopology(const Domain& domain) {
         continue;
       const std::int32_t surface = domain.facets[sides[s].facet].surface;
       curves_around_[sides[s].facet][sides[s].k] = curve;
-      if (curve >= 0)
+      if (curve >= 0 && surface != Domain::lid)
         curve_surfaces_[curve].push_back(surface);
     }
-    if (curve < 0 && end == begin + 2) {
+    // Between the walls of a slab, and between a wall and the lower lid, there is no feature edge.
+    const auto runs_on = [&] {
+      return !plane ||
+             domain.facets[sides[begin].facet].surface == domain.facets[sides[begin + 1].facet].surface;
+    };
+    if (curve < 0 && end == begin + 2 && runs_on()) {
       smooth_across_[sides[begin].facet][sides[begin].k] = sides[begin + 1].facet;
       smooth_across_[sides[begin + 1].facet][sides[begin + 1].k] = sides[begin].facet;
     }
@@ -82,7 +90,7 @@ CadTopology::CadTopology(const Domain& domain) {
   sort_unique(curve_surfaces_);
   sort_unique(curve_corners_);
   sort_unique(corner_surfaces_);
-  for (const auto& around : curve_surfaces_)
+  for (const auto& around : plane ? corner_surfaces_ : curve_surfaces_)
     for (const std::int32_t a : around)
       for (const std::int32_t b : around)
         if (a != b)
@@ -98,7 +106,7 @@ const std::vector<std::int32_t>& CadTopology::surfaces_of(const CadPlace& place)
   case 1:
     return curve_surfaces_[place.entity];
   case 2:
-    return surface_itself_[place.entity];
+    return place.entity < 0 ? none : surface_itself_[place.entity];
   default:
     return none;
   }

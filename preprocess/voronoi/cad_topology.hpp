@@ -16,6 +16,8 @@ struct CadPlace {
   std::int32_t entity = -1;
 };
 
+/// A slab's topology is the plane's: a curve lies on the one wall below it, a corner on the walls that meet
+/// there, lids on nothing; walls share a curve where they share a corner (the upright edge over it).
 class CadTopology {
  public:
   explicit CadTopology(const Domain& domain);

@@ -13,6 +13,8 @@ namespace {
 constexpr double smallest_part = 1e-9;
 
 void add_share(std::vector<SurfaceShare>& shares, std::int32_t surface, const Vec3& area) {
+  if (surface == Domain::lid)
+    return;
   auto at = std::lower_bound(shares.begin(), shares.end(), surface,
                              [](const SurfaceShare& s, std::int32_t key) { return s.surface < key; });
   if (at == shares.end() || at->surface != surface)
@@ -64,8 +66,8 @@ std::vector<Part> parts_of(const RestrictedVoronoi& voronoi, std::int64_t i) {
       const Vec3 area = piece.cell.area(face);
       if (face.label >= 0)
         part.contacts.push_back({face.label, piece.tet, area.norm()});
-      else if (const std::int32_t across = body.across[piece.tet][-1 - face.label]; across < 0)
-        add_share(part.shares, body.domain->facets[-1 - across].surface, area);
+      else if (const std::int32_t facet = voronoi.facet_of(piece, face); facet >= 0)
+        add_share(part.shares, body.domain->facets[facet].surface, area);
     }
   });
   return parts;
@@ -183,6 +185,45 @@ double careful_closure(const RestrictedVoronoi& voronoi, std::int64_t i) {
   return total > 0 ? open.norm() / total : 0;
 }
 
+/// Takes rounding's z from the measures of a slab.
+void flatten(CellMeasures& measures) {
+  for_each(static_cast<std::int64_t>(measures.volume.size()), [&](std::int64_t i) {
+    measures.moment[i].z() = 0;
+    for (SurfaceShare& share : measures.shares[i])
+      share.area.z() = 0;
+  });
+}
+
+void add_polyhedron(const RestrictedVoronoi& voronoi, const CellPiece& piece, CellMesh::Cell cell,
+                    CellMesh& mesh) {
+  const auto first = static_cast<std::int32_t>(mesh.points.size());
+  for (const Vec3& v : piece.cell.vertices())
+    mesh.points.push_back(voronoi.body().scaling.out(v));
+  for (const auto& face : piece.cell.faces()) {
+    auto& loop = cell.faces.emplace_back();
+    for (const std::int32_t v : piece.cell.loop(face))
+      loop.push_back(first + v);
+  }
+  mesh.cells.push_back(std::move(cell));
+}
+
+/// What a plane cell shows on the upper lid; of the three tetrahedra of a prism one lies there.
+void add_polygons(const RestrictedVoronoi& voronoi, const CellPiece& piece, const CellMesh::Cell& owner,
+                  CellMesh& mesh) {
+  for (const auto& face : piece.cell.faces()) {
+    if (!voronoi.on_upper_lid(piece, face))
+      continue;
+    CellMesh::Cell cell = owner;
+    auto& loop = cell.faces.emplace_back();
+    for (const std::int32_t v : piece.cell.loop(face)) {
+      const Vec3& x = piece.cell.vertices()[v];
+      loop.push_back(static_cast<std::int32_t>(mesh.points.size()));
+      mesh.points.push_back(voronoi.body().scaling.out(Vec3(x.x(), x.y(), 0)));
+    }
+    mesh.cells.push_back(std::move(cell));
+  }
+}
+
 } // namespace
 
 CellMeasures measure_cells(const RestrictedVoronoi& voronoi) {
@@ -204,15 +245,14 @@ CellMeasures measure_cells(const RestrictedVoronoi& voronoi) {
       result.moment[i] += measure.moment;
       several[i] |= piece.component > 0;
       for (const auto& face : piece.cell.faces()) {
-        const bool inner = face.label < 0 && piece.tet >= 0 && body.across[piece.tet][-1 - face.label] >= 0;
-        if (inner)
+        const std::int32_t facet = voronoi.facet_of(piece, face);
+        if (face.label < 0 && piece.tet >= 0 && facet < 0)
           continue; // met once more, from the tetrahedron on the other side
         const Vec3 area = piece.cell.area(face);
         open += area;
         total += area.norm();
-        if (face.label < 0 && piece.tet >= 0)
-          add_share(result.shares[i],
-                    body.domain->facets[-1 - body.across[piece.tet][-1 - face.label]].surface, area);
+        if (facet >= 0)
+          add_share(result.shares[i], body.domain->facets[facet].surface, area);
       }
     });
     if (total > 0)
@@ -226,29 +266,27 @@ CellMeasures measure_cells(const RestrictedVoronoi& voronoi) {
     if (several[i])
       split.push_back(i);
   hand_over_orphans(voronoi, split, result);
+  if (body.domain->dimension == 2)
+    flatten(result);
   return result;
 }
 
 CellMesh collect_cells(const RestrictedVoronoi& voronoi, const CellMeasures& measures) {
+  const bool plane = voronoi.body().domain->dimension == 2;
   CellMesh mesh;
   auto orphan = measures.orphans.begin();
   for (std::int64_t i = 0; i < voronoi.size(); ++i) {
     voronoi.visit(i, [&](const CellPiece& piece) {
-      const auto first = static_cast<std::int32_t>(mesh.points.size());
-      for (const Vec3& v : piece.cell.vertices())
-        mesh.points.push_back(voronoi.body().scaling.out(v));
       CellMesh::Cell cell{static_cast<std::int32_t>(i), {}};
       const auto own = std::find_if(orphan, measures.orphans.end(), [&](const CellMeasures::Orphan& o) {
         return o.cell != i || o.component == piece.component;
       });
       if (own != measures.orphans.end() && own->cell == i)
         cell.particle = own->receiver;
-      for (const auto& face : piece.cell.faces()) {
-        auto& loop = cell.faces.emplace_back();
-        for (const std::int32_t v : piece.cell.loop(face))
-          loop.push_back(first + v);
-      }
-      mesh.cells.push_back(std::move(cell));
+      if (!plane)
+        add_polyhedron(voronoi, piece, cell, mesh);
+      else
+        add_polygons(voronoi, piece, cell, mesh);
     });
     while (orphan != measures.orphans.end() && orphan->cell == i)
       ++orphan;

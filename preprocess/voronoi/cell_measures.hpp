@@ -15,7 +15,8 @@ struct SurfaceShare {
   Vec3 area;
 };
 
-/// In the body's scaled coordinates.
+/// In the body's scaled coordinates. In a slab volumes are areas, shares lie on walls only, and moments and
+/// shares have no z.
 struct CellMeasures {
   std::vector<double> volume;
   std::vector<Vec3> moment;                      ///< integral of (x - seed)
@@ -34,7 +35,7 @@ struct CellMeasures {
 /// Orphan parts are counted with their receiver: volumes sum to the body's.
 CellMeasures measure_cells(const RestrictedVoronoi& voronoi);
 
-/// The cells as polyhedra in metres, for looking at.
+/// The cells as polyhedra in metres, for looking at; a slab's as flat polygons (one face) at z = 0.
 CellMesh collect_cells(const RestrictedVoronoi& voronoi, const CellMeasures& measures);
 
 } // namespace tessera::preprocess

@@ -20,8 +20,8 @@ void ConvexCell::set_box(const Vec3& lower, const Vec3& upper) {
   add_face({1, 3, 7, 5}, -2);
   add_face({0, 1, 5, 4}, -3);
   add_face({2, 6, 7, 3}, -4);
-  add_face({0, 2, 3, 1}, -5);
-  add_face({4, 5, 7, 6}, -6);
+  add_face({0, 2, 3, 1}, lower_lid);
+  add_face({4, 5, 7, 6}, upper_lid);
 }
 
 void ConvexCell::set_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -28,7 +28,10 @@ class ConvexCell {
     Vec3 moment = Vec3::Zero(); ///< integral of (x - origin)
   };
 
-  /// Axis-aligned box; its faces carry the labels -1 ... -6.
+  /// What set_box labels the faces z = lower and z = upper: the lids of a plane cell.
+  static constexpr std::int32_t lower_lid = -5, upper_lid = -6;
+
+  /// Axis-aligned box; its faces carry the labels -1 ... -6, in the order x, y, z, lower ones first.
   void set_box(const Vec3& lower, const Vec3& upper);
 
   /// Tetrahedron of positive volume; the face opposite to corner k carries the label -1-k.

@@ -103,6 +103,8 @@ void RestrictedVoronoi::find_boundary_cells() {
     std::vector<std::int32_t> reached;
     std::int32_t hint = 0;
     for (std::int64_t f = b * block; f < std::min(count, (b + 1) * block); ++f) {
+      if (facets[f].surface == Domain::lid)
+        continue; // whoever meets only lids lies inside the plane body
       const auto& corners = facets[f].vertices;
       hint = locate(body_->points[corners[0]], hint);
       reached.assign(1, hint);
@@ -136,6 +138,16 @@ void RestrictedVoronoi::find_boundary_cells() {
   for (const auto& part : met)
     for (const auto& [cell, facet] : part)
       facets_[fill[cell]++] = facet;
+}
+
+bool RestrictedVoronoi::on_upper_lid(const CellPiece& piece, const ConvexCell::Face& face) const {
+  if (body_->domain->dimension != 2)
+    return false;
+  if (piece.tet < 0)
+    return face.label == ConvexCell::upper_lid;
+  const std::int32_t facet = facet_of(piece, face);
+  return facet >= 0 && body_->domain->facets[facet].surface == Domain::lid &&
+         body_->points[body_->domain->facets[facet].vertices[0]].z() > 0;
 }
 
 RestrictedVoronoi::Workspace& RestrictedVoronoi::workspace() {
@@ -176,11 +188,16 @@ void RestrictedVoronoi::cut_whole(std::int64_t i, ConvexCell& cell) const {
   const Vec3 extent = (body_->domain->upper - body_->domain->lower) / body_->scaling.length;
   const double whole = 2 * extent.norm();
   double half = neighbours.empty() ? whole : 1.5 * (seed - (*seeds_)[neighbours.back()]).norm();
+  const bool plane = body_->domain->dimension == 2;
+  const auto final = [&](const ConvexCell::Face& face) {
+    return face.label >= 0 || (plane && face.label <= ConvexCell::lower_lid);
+  };
   for (;; half *= 4) {
-    cell.set_box(seed - Vec3::Constant(half), seed + Vec3::Constant(half));
+    const Vec3 size(half, half, plane ? 0.5 : half);
+    cell.set_box(seed - size, seed + size);
     cut_by_bisectors(i, cell);
     const auto faces = cell.faces();
-    if (half >= whole || std::all_of(faces.begin(), faces.end(), [](const auto& f) { return f.label >= 0; }))
+    if (half >= whole || std::all_of(faces.begin(), faces.end(), final))
       return;
   }
 }

@@ -3,6 +3,9 @@
 /// A cell that meets no boundary facet lies inside the body and is cut by bisectors alone. Any other cell is
 /// the sum of its intersections with the tetrahedra it meets, each of them convex; they are found by flooding
 /// from the tetrahedra behind the facets the cell meets.
+///
+/// In a slab the seeds lie at z = 0 and only walls are boundary: a cell inside is an upright prism from lid
+/// to lid.
 #pragma once
 
 #include "preprocess/voronoi/convex_cell.hpp"
@@ -17,7 +20,7 @@
 namespace tessera::preprocess {
 
 /// One convex piece of a cell. Its faces carry the label of the neighbour behind the bisector, or -1-k for
-/// face k of the tetrahedron `tet` it lies in.
+/// face k of the tetrahedron `tet` it lies in; a whole cell in a slab also has lids (ConvexCell::upper_lid).
 struct CellPiece {
   const ConvexCell& cell;
   std::int32_t tet;       ///< -1: the whole cell, inside the body
@@ -36,6 +39,17 @@ class RestrictedVoronoi {
   const DelaunayGraph& graph() const { return *graph_; }
 
   bool meets_boundary(std::int64_t i) const { return rows_[i + 1] > rows_[i]; }
+
+  /// The boundary facet a piece's face lies in (lids too), -1 for bisectors, inner faces and whole cells.
+  std::int32_t facet_of(const CellPiece& piece, const ConvexCell::Face& face) const {
+    if (face.label >= 0 || piece.tet < 0)
+      return -1;
+    const std::int32_t across = body_->across[piece.tet][-1 - face.label];
+    return across < 0 ? -1 - across : -1;
+  }
+
+  /// Whether a piece's face lies in the upper lid of a slab.
+  bool on_upper_lid(const CellPiece& piece, const ConvexCell::Face& face) const;
 
   /// The seed whose cell holds `point`, walking from cell to cell beginning at `start`.
   std::int32_t locate(const Vec3& point, std::int32_t start) const;

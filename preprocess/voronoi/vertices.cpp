@@ -14,8 +14,9 @@ namespace {
 /// A vertex found by a cell, which is the lowest-numbered of the seeds around it.
 struct Found {
   Vec3 x;
-  std::array<std::int32_t, 3> others; ///< the other seeds, ascending; on a surface the third is -1
-  std::int32_t facet;                 ///< -1 inside
+  std::array<std::int32_t, 3>
+      others;         ///< the other seeds, ascending; on a surface and in a slab the third is -1
+  std::int32_t facet; ///< -1 inside
 };
 
 /// One plane n.x = h of the three that meet at a vertex, in coordinates around the seed.
@@ -45,6 +46,10 @@ class Collector {
   void collect(std::int64_t i, std::vector<Found>& found) const {
     thread_local std::vector<ConvexCell::Corner> corners;
     voronoi_.visit(i, [&](const CellPiece& piece) {
+      if (plane_) {
+        collect_on_lid(i, piece, found);
+        return;
+      }
       piece.cell.corners(corners);
       for (std::size_t v = 0; v < corners.size(); ++v)
         if (corners[v].count == 3)
@@ -73,6 +78,31 @@ class Collector {
     Found vertex{sharpened(planes, seed, cut), {labels[1], labels[0], -1}, facet};
     if (facet < 0)
       vertex.others = {labels[2], labels[1], labels[0]};
+    add(piece, vertex, found);
+  }
+
+  /// The plane's vertices are the corners between two bisectors of a piece's face on the upper lid.
+  void collect_on_lid(std::int64_t i, const CellPiece& piece, std::vector<Found>& found) const {
+    const auto lid = std::find_if(piece.cell.faces().begin(), piece.cell.faces().end(),
+                                  [&](const auto& face) { return voronoi_.on_upper_lid(piece, face); });
+    if (lid == piece.cell.faces().end())
+      return;
+    thread_local std::vector<ConvexCell::Corner> corners;
+    piece.cell.corners(corners);
+    const Vec3& seed = voronoi_.seeds()[i];
+    for (const std::int32_t v : piece.cell.loop(*lid)) {
+      auto labels = corners[v].labels;
+      std::sort(labels.begin(), labels.end(), std::greater<>());
+      if (corners[v].count != 3 || labels[1] < i || labels[0] == labels[1] || labels[2] >= 0)
+        continue;
+      const Vec3 cut(piece.cell.vertices()[v].x(), piece.cell.vertices()[v].y(), 0);
+      const std::array<Plane, 3> planes{
+          bisector(seed, labels[0]), bisector(seed, labels[1]), {Vec3::UnitZ(), 0}};
+      add(piece, {sharpened(planes, seed, cut), {labels[1], labels[0], -1}, -1}, found);
+    }
+  }
+
+  void add(const CellPiece& piece, const Found& vertex, std::vector<Found>& found) const {
     // A vertex on the face between two tetrahedra is met from both.
     const auto twin = [&](const Found& f) {
       return f.others == vertex.others && surface_of(f) == surface_of(vertex) &&
@@ -100,6 +130,7 @@ class Collector {
 
   const RestrictedVoronoi& voronoi_;
   const TetBody& body_;
+  const bool plane_ = body_.domain->dimension == 2;
 };
 
 /// Where the CAD curves pass from one cell to the next.
@@ -139,6 +170,8 @@ void add_curve_points(const RestrictedVoronoi& voronoi, PlacedPoints& points) {
 
 PlacedPoints cell_vertices(const RestrictedVoronoi& voronoi) {
   const TetBody& body = voronoi.body();
+  const bool plane = body.domain->dimension == 2;
+  const CadPlace within{static_cast<std::uint8_t>(body.domain->dimension), -1};
   PlacedPoints points;
   for (const std::int32_t v : body.domain->corners)
     points.add(body.points[v], {0, v});
@@ -160,7 +193,10 @@ PlacedPoints cell_vertices(const RestrictedVoronoi& voronoi) {
     for (const auto& part : found)
       for (const Found& f : part)
         if ((f.facet < 0) == inside)
-          points.add(f.x, inside ? CadPlace{} : CadPlace{2, body.domain->facets[f.facet].surface});
+          points.add(f.x, inside ? within : CadPlace{2, body.domain->facets[f.facet].surface});
+  if (plane)
+    for (Vec3& x : points.X)
+      x.z() = 0; // corners and curve points come from the upper rim
   return points;
 }
 

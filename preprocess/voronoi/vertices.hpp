@@ -23,7 +23,8 @@ struct PlacedPoints {
 
 /// In this order: the CAD corners; on each CAD curve the points between two cells; on each CAD surface the
 /// points between three; inside, the points between four. Cuts by the tetrahedra's own inner faces leave no
-/// trace. Each point is equally far from its seeds to rounding.
+/// trace. Each point is equally far from its seeds to rounding. In a slab, all at z = 0: the corners; on each
+/// wall the points between two cells; inside, the points between three.
 PlacedPoints cell_vertices(const RestrictedVoronoi& voronoi);
 
 } // namespace tessera::preprocess
