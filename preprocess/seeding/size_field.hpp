@@ -27,4 +27,8 @@ using SizeField = std::function<double(const Vec3&)>;
 /// below 0.01, distances negative or in the wrong order.
 SizeField size_field(const Domain& domain, const std::vector<Refinement>& refine, bool sizes_from_mesh);
 
+/// The integral of size^-dimension over the body, m^dimension; its volume where `size` is empty. N particles
+/// of spacing h size fill it: N = graded volume / h^dimension.
+double graded_volume(const Domain& domain, const SizeField& size);
+
 } // namespace tessera::preprocess

@@ -32,8 +32,9 @@ TwoPass one_try(const TetBody& body, const CadTopology& cad, std::int64_t seeds,
 
 } // namespace
 
-TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, std::int64_t count, double merge,
-                        std::uint64_t seed, Progress& progress) {
+TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request,
+                        Progress& progress) {
+  const auto& [count, merge, seed, size, relax_seeds] = request;
   constexpr int most_tries = 16;
   const auto wanted = static_cast<double>(count);
   progress.begin("first Voronoi pass", most_tries);
