@@ -25,11 +25,17 @@ struct CellMeasures {
   std::int64_t disconnected = 0; ///< cells that fall into several pieces
 
   /// A part of a cell that does not hang together with its seed (material across a slot) and who got it: the
-  /// neighbour it touches most among those whose own part it hangs together with, else the cell itself.
+  /// one across its largest contact among the neighbours that own what they show there, or, where it touches
+  /// only other orphans, who got those. Nobody (then `receiver` is `cell`) where a whole piece of the body
+  /// has no seed.
   struct Orphan {
     std::int32_t cell, component, receiver;
+    double volume;
+    Vec3 centroid;
+    Vec3 inside; ///< a point within the part, its centroid where that lies within: room for a particle
   };
-  std::vector<Orphan> orphans; ///< ascending in cell, component
+  std::vector<Orphan> orphans; ///< ascending in cell, component; slivers of rounding are none
+  double stranded = 0;         ///< volume of the orphans nobody could take: left with a seed across the gap
 };
 
 /// Orphan parts are counted with their receiver: volumes sum to the body's.

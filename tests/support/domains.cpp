@@ -120,4 +120,23 @@ Domain l_domain(int n, double scale, const Vec3& offset) {
       [&](const Cell& p) -> Vec3 { return offset + scale * Vec3(p[0], p[1], p[2]) / n; });
 }
 
+Domain slotted_domain(int n, double width, double scale) {
+  const auto along = [n](int p) { return static_cast<double>(p) / n; };
+  return grid_domain(
+      {2 * n + 1, n + 1, n}, [&](const Cell& c) { return c[1] == 0 || c[0] != n; },
+      {{{0, 0}, "xmin"},
+       {{0, n}, "slot_left"},
+       {{0, n + 1}, "slot_right"},
+       {{0, 2 * n + 1}, "xmax"},
+       {{1, 0}, "ymin"},
+       {{1, 1}, "slot_foot"},
+       {{1, n + 1}, "ymax"},
+       {{2, 0}, "zmin"},
+       {{2, n}, "zmax"}},
+      [&](const Cell& p) -> Vec3 {
+        const double x = p[0] <= n ? along(p[0]) : 1 + width + along(p[0] - n - 1);
+        return scale * Vec3(x, p[1] == 0 ? -0.2 : along(p[1] - 1), along(p[2]));
+      });
+}
+
 } // namespace tessera::test

@@ -14,4 +14,8 @@ preprocess::Domain box_domain(const Vec3& lower = Vec3::Zero(), const Vec3& uppe
 /// re-entrant curve x = y = 1: 8 surfaces, 18 curves, 12 corners.
 preprocess::Domain l_domain(int n = 1, double scale = 1, const Vec3& offset = Vec3::Zero());
 
+/// Two unit cubes [0, 1]^3 and [1 + width, 2 + width] x [0, 1]^2 joined by a foot of height 0.2 (y from -0.2
+/// to 0), all times `scale`: a slot of the given width between them. Volume (2 + 0.2 (2 + width)) scale^3.
+preprocess::Domain slotted_domain(int n, double width, double scale = 1);
+
 } // namespace tessera::test

@@ -1,9 +1,8 @@
 #include "core/error.hpp"
 #include "preprocess/geometry/boundary.hpp"
-#include "preprocess/seeding/random.hpp"
-#include "preprocess/voronoi/cell_measures.hpp"
 #include "preprocess/voronoi/merge.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/support/tessellation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,37 +13,8 @@
 namespace tessera::preprocess {
 namespace {
 
-/// A tessellation with all it refers to.
-struct Tessellation {
-  Domain domain;
-  TetBody body;
-  std::vector<Vec3> seeds;
-  DelaunayGraph graph;
-  RestrictedVoronoi voronoi;
-
-  Tessellation(const Domain& shape, const std::vector<Vec3>& X)
-      : domain(shape),
-        body(domain, scaling_for(domain, std::cbrt(domain.volume / static_cast<double>(X.size())))),
-        seeds(scaled(X)), graph(delaunay_graph(seeds)), voronoi(body, seeds, graph) {}
-
-  double volume(double measured) const { return measured * std::pow(body.scaling.length, 3); }
-
- private:
-  std::vector<Vec3> scaled(const std::vector<Vec3>& X) const {
-    std::vector<Vec3> result;
-    for (const Vec3& x : X)
-      result.push_back(body.scaling.in(x));
-    return result;
-  }
-};
-
-std::vector<Vec3> random_points(const Domain& domain, int count, std::uint64_t seed = 7) {
-  RandomPoints random(domain, seed);
-  std::vector<Vec3> X;
-  for (int i = 0; i < count; ++i)
-    X.push_back(random.next());
-  return X;
-}
+using test::random_points;
+using test::Tessellation;
 
 /// Two blocks joined at their foot, a slot of the given width between them: volume 4 + width.
 Domain slotted_domain(double width) {
