@@ -73,9 +73,11 @@ bool holds_cloud_of(const fs::path& folder, const Case& the_case) {
   const auto made = fs::last_write_time(cloud, failed);
   if (failed)
     return false;
-  const auto changed = fs::last_write_time(the_case.geometry.file, failed);
-  if (!failed && changed > made)
-    return false;
+  if (!the_case.geometry.shape) {
+    const auto changed = fs::last_write_time(the_case.geometry.file, failed);
+    if (!failed && changed > made)
+      return false;
+  }
   try {
     return read_case(stored, {}).cloud_text == the_case.cloud_text;
   } catch (const InputError&) { // stored by another version: its cloud may differ as well

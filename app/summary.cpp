@@ -75,8 +75,8 @@ std::string outlook_json(const Case& the_case, const Outlook& o) {
   json["case"] = the_case.name;
   json["title"] = the_case.title;
   json["version"] = TESSERA_VERSION;
-  json["geometry"] = the_case.geometry.file.string();
-  json["unit"] = the_case.geometry.unit;
+  json["geometry"] = the_case.geometry_text();
+  json["dimension"] = o.quality.dimension;
   json["lower"] = list(o.lower);
   json["upper"] = list(o.upper);
   json["cad_volume"] = o.quality.cad_volume;
@@ -104,10 +104,14 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
   const auto line = [&](const char* what, const std::string& value) {
     text += fmt::format("  {:<14}{}\n", what, value);
   };
-  line("geometry", fmt::format("{} (unit {})", the_case.geometry.file.string(), the_case.geometry.unit));
+  line("geometry", the_case.geometry_text());
   line("bounding box", fmt::format("{:.6g} x {:.6g} x {:.6g} m, from ({:.6g}, {:.6g}, {:.6g}) m", size[0],
                                    size[1], size[2], o.lower[0], o.lower[1], o.lower[2]));
-  line("volume", fmt::format("{:.6g} m^3 (CAD {:.6g} m^3)", o.quality.domain_volume, o.quality.cad_volume));
+  if (o.quality.dimension == 2)
+    line("area", fmt::format("{:.6g} m^2 (CAD {:.6g} m^2), plane strain", o.quality.domain_volume,
+                             o.quality.cad_volume));
+  else
+    line("volume", fmt::format("{:.6g} m^3 (CAD {:.6g} m^3)", o.quality.domain_volume, o.quality.cad_volume));
   line("particles", fmt::format("{}, spacing {:.4g} m, {:.1f} neighbours each", o.quality.particles,
                                 o.spacing, f.neighbours_mean));
   line("sets", o.sets.empty() ? "none" : words(o.sets));

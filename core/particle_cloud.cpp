@@ -80,10 +80,6 @@ void ParticleCloud::validate(const std::string& origin) const {
   }
   require(sight.empty() || sight.size() == n, "the cloud's arrays differ in length", origin,
           "prepare it again");
-  for (const auto& [a, b] : hidden.pairs())
-    require(a >= 0 && a < b && static_cast<std::size_t>(b) < n,
-            fmt::format("the hidden pair {}, {} names no two particles", a, b), origin,
-            "prepare the cloud again");
 }
 
 } // namespace tessera

@@ -24,6 +24,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 #include <limits>
@@ -33,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr std::string_view mask_prefix = "set:";
 constexpr std::string_view area_prefix = "area:";
 constexpr const char* prepare_again = "prepare the cloud again";
@@ -133,6 +135,20 @@ class Source {
   bool has_field(const std::string& name) const {
     return data_->GetFieldData()->GetAbstractArray(name.c_str()) != nullptr;
   }
+  bool has_array(const std::string& name) const { return data_->GetPointData()->HasArray(name.c_str()); }
+  /// Any number of pairs; none where the file has no such field.
+  std::vector<std::array<std::int32_t, 2>> pairs(const std::string& name) const {
+    if (!has_field(name))
+      return {};
+    auto* found = vtkDataArray::SafeDownCast(data_->GetFieldData()->GetAbstractArray(name.c_str()));
+    vtkDataArray& array = checked(found, name, 2, found != nullptr ? found->GetNumberOfTuples() : 0);
+    std::vector<std::array<std::int32_t, 2>> out(static_cast<std::size_t>(array.GetNumberOfTuples()));
+    for (std::size_t i = 0; i < out.size(); ++i)
+      for (int c = 0; c < 2; ++c)
+        out[i][static_cast<std::size_t>(c)] =
+            static_cast<std::int32_t>(array.GetComponent(static_cast<vtkIdType>(i), c));
+    return out;
+  }
   vtkPolyData& data() const { return *data_; }
 
  private:
@@ -215,10 +231,18 @@ void write_cloud(const ParticleCloud& cloud, const fs::path& file) {
     return cloud.cad_dimension[static_cast<std::size_t>(i)];
   }));
   arrays.AddArray(make_array<vtkTypeInt32Array>("id", 1, n, [](std::int64_t i, int) { return i; }));
+  if (!cloud.sight.empty())
+    arrays.AddArray(make_array<vtkDoubleArray>(
+        "sight", 1, n, [&](std::int64_t i, int) { return cloud.sight[static_cast<std::size_t>(i)]; }));
   for (const ParticleSet& set : cloud.sets)
     add_set(arrays, set, n);
 
   vtkFieldData& fields = *data->GetFieldData();
+  if (const auto& pairs = cloud.hidden.pairs(); !pairs.empty())
+    fields.AddArray(make_array<vtkTypeInt32Array>(
+        "hidden_pairs", 2, static_cast<std::int64_t>(pairs.size()), [&](std::int64_t i, int c) {
+          return pairs[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)];
+        }));
   fields.AddArray(make_value<vtkTypeInt32Array>("format_version", format_version));
   fields.AddArray(make_value<vtkTypeInt32Array>("dimension", cloud.dimension));
   fields.AddArray(make_value<vtkDoubleArray>("spacing", cloud.spacing));
@@ -269,6 +293,18 @@ ParticleCloud read_cloud(const fs::path& file) {
     cloud.cad_dimension.push_back(static_cast<std::uint8_t>(cad_dimension.GetTuple1(i)));
   }
   cloud.sets = read_sets(source);
+  if (source.has_array("sight")) {
+    vtkDataArray& sight = source.array("sight", 1);
+    for (std::int64_t i = 0; i < source.points(); ++i)
+      cloud.sight.push_back(sight.GetTuple1(i));
+  }
+  auto pairs = source.pairs("hidden_pairs");
+  for (const auto& [a, b] : pairs)
+    require(a >= 0 && a < b && b < source.points(),
+            fmt::format("the hidden pair {}, {} names no two particles", a, b), origin, prepare_again);
+  require(std::is_sorted(pairs.begin(), pairs.end()), "the hidden pairs are not in order", origin,
+          prepare_again);
+  cloud.hidden = {source.points(), std::move(pairs)};
   cloud.validate(origin);
   return cloud;
 }

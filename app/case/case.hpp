@@ -23,6 +23,7 @@ struct Case {
   std::filesystem::path path; ///< of the case file
   preprocess::GeometrySource geometry;
   preprocess::ParticleRequest particles;
+  bool has_scene = false; ///< false: only particles are described
   solver::SceneSpec scene;
   std::vector<post::Picture> pictures;
 
@@ -34,6 +35,11 @@ struct Case {
   /// Where a key such as "material.poisson" or "wall.0.restitution" was written: file:line:column or "--set
   /// ...".
   std::function<std::string(const std::string& key)> where;
+
+  /// The geometry in a few words: the file and its unit, or the shape and its lengths.
+  std::string geometry_text() const;
+  /// InputError where there is nothing to solve.
+  void require_scene() const;
 };
 
 /// Reads `file` (or file/case.toml where it is a folder) and applies `overrides`, each "dotted.key=value".

@@ -1,8 +1,10 @@
 #include "app/case/case.hpp"
+#include "app/case/read_cloud.hpp"
 #include "app/case/table.hpp"
 #include "core/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,94 +14,6 @@ namespace tessera::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-preprocess::GeometrySource read_geometry(Table geometry, const fs::path& case_folder) {
-  preprocess::GeometrySource source;
-  const fs::path file = geometry.text("file");
-  const std::string unit = geometry.text("unit");
-  const std::int64_t dimension = geometry.integer_or("dimension", 3, 2, 3);
-  source.trust = geometry.boolean_or("trust", source.trust);
-  source.tolerance = geometry.number_or("tolerance", source.tolerance, positive);
-  source.mesh_size = geometry.number_or("mesh_size", source.mesh_size, positive);
-  geometry.finish();
-
-  if (dimension != 3)
-    geometry.refuse("dimension", "geometry.dimension is 2",
-                    "plane strain is not offered by this version: use 3");
-  if (file.empty())
-    geometry.refuse("file", "geometry.file is empty", "name a CAD or mesh file");
-  try {
-    preprocess::metres_per_unit(unit);
-  } catch (const InputError& e) {
-    geometry.refuse("unit", fmt::format("geometry.unit: {}", e.what()), "");
-  }
-  source.unit = unit;
-  // A path typed on the command line is relative to where it was typed, one in the case to the case.
-  const bool typed = geometry.is_overridden("file");
-  source.file = fs::weakly_canonical(fs::absolute(typed ? file : case_folder / file));
-  return source;
-}
-
-preprocess::ParticleRequest read_particles(Table particles) {
-  using preprocess::Arrangement, preprocess::Subvolumes;
-  preprocess::ParticleRequest request;
-  request.arrangement = particles.choice("arrangement", {"lattice", "voronoi"}) == "lattice"
-                            ? Arrangement::lattice
-                            : Arrangement::voronoi;
-  request.subvolumes = particles.choice_or("subvolumes", "voronoi", {"voronoi", "uniform"}) == "uniform"
-                           ? Subvolumes::uniform
-                           : Subvolumes::voronoi;
-  request.spacing = particles.number_or("spacing", 0, positive);
-  request.count = particles.integer_or("count", 0, 1, 1'000'000'000);
-  request.seed = static_cast<std::uint64_t>(particles.integer_or("seed", 1, 0, std::int64_t{1} << 53));
-  request.merge = particles.number_or("merge", request.merge, zero_to_one);
-  particles.finish();
-
-  if (particles.has("spacing") && particles.has("count"))
-    particles.refuse("count", "particles has both spacing and count", "give one of them");
-  if (!particles.has("spacing") && !particles.has("count"))
-    throw InputError("particles has neither spacing nor count", particles.where(),
-                     "add spacing = (metres) or count = (particles wanted)");
-  return request;
-}
-
-preprocess::SetSelector read_set(Table set, const std::vector<preprocess::SetSelector>& earlier) {
-  preprocess::SetSelector selector;
-  selector.name = set.name("name");
-  selector.tolerance = set.number_or("tolerance", 0, not_negative);
-  int ways = 0;
-  if (auto plane = set.optional_table("plane")) {
-    preprocess::PlaneSelector where{plane->vector("point"), plane->vector("normal")};
-    plane->finish();
-    if (where.normal.isZero())
-      plane->refuse("normal", "the plane's normal is zero", "give it a direction");
-    selector.where = where;
-    ++ways;
-  }
-  if (auto box = set.optional_table("box")) {
-    preprocess::BoxSelector where{box->vector("lower"), box->vector("upper")};
-    box->finish();
-    if ((where.lower.array() > where.upper.array()).any())
-      box->refuse("lower", "a lower corner of the box lies above its upper one", "exchange them");
-    selector.where = where;
-    ++ways;
-  }
-  if (const auto point = set.optional_vector("nearest")) {
-    selector.where = preprocess::NearestSelector{*point};
-    ++ways;
-  }
-  set.finish();
-
-  if (ways != 1)
-    set.refuse("name", fmt::format("set '{}' has {} selectors", selector.name, ways),
-               "give exactly one of plane, box and nearest");
-  if (selector.name == "all")
-    set.refuse("name", "a set may not be called 'all'", "that name means every particle");
-  for (const auto& other : earlier)
-    if (other.name == selector.name)
-      set.refuse("name", fmt::format("two sets are called '{}'", selector.name), "give each its own name");
-  return selector;
-}
 
 solver::MaterialSpec read_material(Table material) {
   solver::MaterialSpec spec;
@@ -268,6 +182,20 @@ std::string cloud_part(const toml::table& root) {
 
 } // namespace
 
+std::string Case::geometry_text() const {
+  if (!geometry.shape)
+    return fmt::format("{} (unit {})", geometry.file.string(), geometry.unit);
+  std::string words = geometry.shape->name;
+  for (const auto& length : geometry.shape->lengths)
+    words += fmt::format(" {}", fmt::join(length, " x "));
+  return words + " m";
+}
+
+void Case::require_scene() const {
+  require(has_scene, "the case describes particles only", path.string(),
+          "add [material] and [solver] (docs/cases.md), or use tessera prepare");
+}
+
 Case read_case(const fs::path& file, const std::vector<std::string>& overrides) {
   const auto document = std::make_shared<Document>(file, overrides);
   Case result;
@@ -279,21 +207,30 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   result.title = root.text_or("title", result.name);
   Table geometry = root.table("geometry");
   Table particles = root.table("particles");
-  Table material = root.table("material");
-  Table solver = root.table("solver");
+  // A case that only describes particles needs no material: `prepare` is all that can be done with it.
+  for (const char* key : {"material", "solver", "initial", "boundary", "wall", "output"})
+    result.has_scene |= root.has(key);
+  std::optional<Table> material, solver;
+  if (result.has_scene) {
+    material = root.table("material");
+    solver = root.table("solver");
+  }
   const std::vector<Table> sets = root.tables("set"), initial = root.tables("initial"),
                            boundary = root.tables("boundary"), wall = root.tables("wall");
   std::optional<Table> output = root.optional_table("output");
   root.finish();
 
   result.geometry = read_geometry(geometry, result.path.parent_path());
-  result.particles = read_particles(particles);
+  result.particles = read_particles(particles, result.geometry.dimension);
+  result.geometry.background_sizes = result.particles.sizes_from_mesh;
   for (const Table& set : sets)
     result.particles.sets.push_back(read_set(set, result.particles.sets));
 
   solver::SceneSpec& scene = result.scene;
-  scene.material = read_material(material);
-  read_solver(solver, scene);
+  if (result.has_scene) {
+    scene.material = read_material(*material);
+    read_solver(*solver, scene);
+  }
   for (const Table& entry : initial)
     scene.initial.push_back(read_initial(entry));
   for (const Table& entry : boundary)
@@ -311,10 +248,12 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
     for (const Table& entry : pictures)
       result.pictures.push_back(read_picture(entry, result.pictures));
   }
-  solver::validate(scene, result.where);
+  if (result.has_scene)
+    solver::validate(scene, result.where);
 
   toml::table stored = document->root(); // a copy: the document's own nodes know where they were written
-  stored["geometry"].as_table()->insert_or_assign("file", result.geometry.file.string());
+  if (!result.geometry.shape)
+    stored["geometry"].as_table()->insert_or_assign("file", result.geometry.file.string());
   result.text = to_text(stored);
   result.cloud_text = cloud_part(stored);
   return result;

@@ -60,6 +60,10 @@ bool Table::has(const std::string& key) const {
   return table_ != nullptr && table_->contains(key);
 }
 
+bool Table::is_text(const std::string& key) const {
+  return has(key) && table_->get(key)->is_string();
+}
+
 void Table::refuse(const std::string& key, const std::string& what, const std::string& remedy) const {
   throw InputError(what, document_->where(path_of(key)), remedy);
 }
@@ -200,6 +204,19 @@ std::optional<Vec3> Table::optional_vector(const std::string& key) {
   if (node == nullptr)
     return std::nullopt;
   return vector_in(key, *node);
+}
+
+std::vector<double> Table::numbers(const std::string& key, int count, Range range) {
+  const toml::node* node = declare_wanted(key);
+  std::vector<double> values(static_cast<std::size_t>(count), 0.0);
+  if (node == nullptr)
+    return values;
+  const toml::array* list = node->as_array();
+  if (list == nullptr || list->size() != values.size())
+    wrong_type(key, *node, fmt::format("a list of {} numbers", count).c_str());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = number_in(fmt::format("{}.{}", key, i), *list->get(i), range);
+  return values;
 }
 
 std::optional<std::array<std::string, 3>> Table::optional_formulas(const std::string& key) {

@@ -49,6 +49,8 @@ class Table {
 
   Vec3 vector(const std::string& key);
   std::optional<Vec3> optional_vector(const std::string& key);
+  /// A list of that many numbers.
+  std::vector<double> numbers(const std::string& key, int count, Range range = any_number);
   /// Three formulas, each a string or a number.
   std::optional<std::array<std::string, 3>> optional_formulas(const std::string& key);
   /// A number or a word.
@@ -66,6 +68,7 @@ class Table {
   /// InputError about one of this table's keys (or, where it is absent, the table).
   [[noreturn]] void refuse(const std::string& key, const std::string& what, const std::string& remedy) const;
   bool has(const std::string& key) const;
+  bool is_text(const std::string& key) const;
   bool is_overridden(const std::string& key) const { return document_->is_overridden(path_of(key)); }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string where() const { return document_->where(path_); }

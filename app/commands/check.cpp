@@ -9,6 +9,7 @@ namespace tessera::app {
 void check(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
+  the_case.require_scene();
   require_cad_file(the_case);
   const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
   stop_if_interrupted("import");

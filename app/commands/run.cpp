@@ -9,6 +9,7 @@ namespace tessera::app {
 void run(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
+  the_case.require_scene();
   require_cad_file(the_case);
   const std::filesystem::path folder = options.output.empty() ? default_folder(the_case) : options.output;
   open_folder(folder);

@@ -10,6 +10,7 @@ namespace tessera::app {
 void solve(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
+  the_case.require_scene();
   const std::filesystem::path folder = options.output.empty() ? default_folder(the_case) : options.output;
 
   // Everything that can be wrong with the input is found before the folder is touched.

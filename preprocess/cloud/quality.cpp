@@ -37,6 +37,8 @@ void assess(const Domain& domain, const ParticleCloud& cloud, const DelaunayGrap
         Vec3 centroid = -middle;
         for (const std::int32_t v : domain.tets[t])
           centroid += domain.vertices[v] / 4;
+        if (domain.dimension == 2)
+          centroid[2] = 0;
         return domain.tet_volume(t) * centroid;
       });
   quality.first_moment_error = (cells - body).norm() / (domain.volume * (domain.upper - domain.lower).norm());
@@ -65,6 +67,8 @@ std::string to_json(const Quality& q) {
                                     {"volume_sum", q.volume_sum},
                                     {"volume_error", q.volume_error},
                                     {"area_sum", q.area_sum},
+                                    {"area_correction", q.area_correction},
+                                    {"area_imbalance", q.area_imbalance},
                                     {"first_moment_error", q.first_moment_error},
                                     {"closure_error", q.closure_error},
                                     {"spacing_min", q.spacing_min},
@@ -77,6 +81,9 @@ std::string to_json(const Quality& q) {
                                     {"sets", sets},
                                     {"seed", q.seed},
                                     {"disconnected_cells", q.disconnected_cells},
+                                    {"inserted_particles", q.inserted_particles},
+                                    {"stranded_volume", q.stranded_volume},
+                                    {"hidden_pairs", q.hidden_pairs},
                                     {"seconds", seconds}};
   return json.dump(2) + "\n";
 }

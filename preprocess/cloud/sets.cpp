@@ -54,7 +54,7 @@ void give_areas(const SetSource& source, const std::vector<std::int32_t>& surfac
 ParticleSet surface_set(const SetSource& source, const std::string& name,
                         const std::vector<std::int32_t>& surfaces) {
   // Smaller shares than this are rounding where a cell ends at the surface.
-  const double least = 1e-6 * source.cloud.spacing * source.cloud.spacing;
+  const double least = 1e-6 * std::pow(source.cloud.spacing, source.cloud.dimension - 1);
   std::set<std::int32_t> lying, owning;
   for (std::int32_t i = 0; i < source.cloud.size(); ++i) {
     for (const std::int32_t s : source.cad.surfaces_of(source.place[i]))
@@ -99,10 +99,13 @@ ParticleSet curve_set(const SetSource& source, const std::string& name,
 std::vector<std::int32_t> surfaces_in(const SetSource& source, const Vec3& point, const Vec3& unit,
                                       double tolerance) {
   std::vector<bool> inside(source.domain.surfaces.size(), true);
-  for (const auto& facet : source.domain.facets)
+  for (const auto& facet : source.domain.facets) {
+    if (facet.surface == Domain::lid)
+      continue;
     for (const std::int32_t v : facet.vertices)
       if (std::abs(unit.dot(source.domain.vertices[v] - point)) > tolerance)
         inside[facet.surface] = false;
+  }
   std::vector<std::int32_t> surfaces;
   for (std::size_t s = 0; s < inside.size(); ++s)
     if (inside[s])

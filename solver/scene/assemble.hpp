@@ -34,12 +34,14 @@ struct Assembly {
 template <int D>
 Neighbours build_graph(const SceneSpec& scene, const ParticleCloud& cloud) {
   constexpr double lattice_support = 2.2;
+  constexpr int usual_neighbours = D == 2 ? 14 : 30;
   const auto supported = [&] {
     if (scene.support)
       return uniform_support(cloud.X, *scene.support * cloud.spacing, cloud.hidden);
     if (cloud.arrangement == "lattice")
       return uniform_support(cloud.X, lattice_support * cloud.spacing, cloud.hidden);
-    return adaptive_support<D>(cloud.X, cloud.V, scene.neighbours, cloud.hidden);
+    const int neighbours = scene.neighbours > 0 ? scene.neighbours : usual_neighbours;
+    return adaptive_support<D>(cloud.X, cloud.V, neighbours, cloud.hidden);
   };
   Neighbours graph = supported();
   for (std::size_t a = 0; a < cloud.sight.size(); ++a)

@@ -66,7 +66,7 @@ struct SceneSpec {
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
   /// particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
-  int neighbours = 30;
+  int neighbours = 0;    ///< 0: 30 in space, 14 in the plane
   double jst4 = 1.0 / 8; ///< kappa4 of (3.85)
   double cfl = 0.3;      ///< sigma of (3.93)
   bool momentum_projection = true;

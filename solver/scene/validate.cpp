@@ -51,8 +51,8 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
   if (scene.support)
     number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
            "above 1 and at most 6 (kernel radius over the spacing)");
-  number("solver.neighbours", scene.neighbours, scene.neighbours >= 8 && scene.neighbours <= 200,
-         "from 8 to 200");
+  number("solver.neighbours", scene.neighbours,
+         scene.neighbours == 0 || (scene.neighbours >= 8 && scene.neighbours <= 200), "from 8 to 200");
   number("solver.jst4", scene.jst4, scene.jst4 >= 0 && scene.jst4 <= 1, "from 0 to 1");
   number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");

@@ -53,6 +53,66 @@ TEST(Case, OptionalPartsArrive) {
   EXPECT_EQ(c.scene.walls[0].restitution, 0.5);
 }
 
+/// A case of particles alone, from the text of its two tables.
+Case cloud_case(const std::string& geometry, const std::string& particles) {
+  return read_text_case("[geometry]\n" + geometry + "\n[particles]\n" + particles + "\n");
+}
+
+TEST(Case, ShapesNeedNoFileAndNoScene) {
+  const Case c = cloud_case("shape = \"tube\"\nouter_radius = 2\ninner_radius = 1.5\nheight = 3",
+                            "arrangement = \"lattice\"\nspacing = 0.1\nlattice = \"hexagonal\"");
+  ASSERT_TRUE(c.geometry.shape.has_value());
+  EXPECT_EQ(c.geometry.shape->name, "tube");
+  EXPECT_EQ(c.geometry.shape->lengths, (std::vector<std::vector<double>>{{2}, {1.5}, {3}}));
+  EXPECT_EQ(c.geometry_text(), "tube 2 1.5 3 m");
+  EXPECT_EQ(c.particles.lattice, preprocess::LatticeKind::hexagonal);
+  EXPECT_FALSE(c.has_scene);
+  EXPECT_THROW(c.require_scene(), InputError);
+}
+
+TEST(Case, PlaneShapesTakeTwoLengths) {
+  const Case c = cloud_case("shape = \"rectangle\"\ndimension = 2\nsize = [3, 1]",
+                            "arrangement = \"poisson\"\ncount = 500\nrelax = 10");
+  EXPECT_EQ(c.geometry.dimension, 2);
+  EXPECT_EQ(c.geometry.shape->lengths, (std::vector<std::vector<double>>{{3, 1}}));
+  EXPECT_EQ(c.particles.arrangement, preprocess::Arrangement::poisson);
+  EXPECT_EQ(c.particles.relax, 10);
+}
+
+TEST(Case, RefinementsOfIrregularClouds) {
+  const Case c = cloud_case("shape = \"box\"\nsize = [1, 1, 1]",
+                            "arrangement = \"voronoi\"\nspacing = 0.1\nrelax_seeds = 4\nbackend = \"voro\"\n"
+                            "refine = [{around = \"x_min\", factor = 0.5, within = 0.1, until = 0.3},\n"
+                            "{around = [1, 0, 0.5], factor = 0.25, until = 0.2}]");
+  ASSERT_EQ(c.particles.refine.size(), 2U);
+  EXPECT_EQ(std::get<std::string>(c.particles.refine[0].around), "x_min");
+  EXPECT_EQ(c.particles.refine[0].within, 0.1);
+  EXPECT_EQ(std::get<Vec3>(c.particles.refine[1].around), Vec3(1, 0, 0.5));
+  EXPECT_EQ(c.particles.refine[1].factor, 0.25);
+  EXPECT_EQ(c.particles.relax_seeds, 4);
+  EXPECT_EQ(c.particles.backend, preprocess::Backend::voro);
+}
+
+TEST(Case, KeysOfAnotherArrangementAreUnknown) {
+  const auto message = [](const std::string& particles) -> std::string {
+    try {
+      cloud_case("shape = \"box\"\nsize = [1, 1, 1]", particles);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("arrangement = \"lattice\"\nspacing = 0.1\nrelax = 3").find("relax"), std::string::npos);
+  EXPECT_NE(message("arrangement = \"voronoi\"\nspacing = 0.1\nlattice = \"cubic\"").find("lattice"),
+            std::string::npos);
+  EXPECT_NE(message("arrangement = \"poisson\"\nspacing = 0.1\nmerge = 0.5").find("merge"),
+            std::string::npos);
+  EXPECT_NE(message("arrangement = \"voronoi\"\nspacing = 0.1\n"
+                    "refine = [{around = \"x_min\", factor = 2, until = 1}]")
+                .find("above 1"),
+            std::string::npos);
+}
+
 TEST(Case, SelectorsOfSets) {
   const Case c =
       read_text_case(complete_case + "[[set]]\nname = \"b\"\nbox = {lower = [0, 0, 0], upper = [1, 2, 3]}\n"

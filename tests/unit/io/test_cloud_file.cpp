@@ -38,7 +38,9 @@ ParticleCloud awkward_cloud(int n = 500) {
     cloud.A.emplace_back(i, 1e300 / (i + 1), 1e-300 * i);
     cloud.centroid.emplace_back(std::cos(i), 0, i);
     cloud.cad_dimension.push_back(static_cast<std::uint8_t>(i % 4));
+    cloud.sight.push_back(std::sqrt(i + 1));
   }
+  cloud.hidden = {n, {{0, 1}, {0, n - 1}, {3, 4}}};
   cloud.sets.push_back({"base \"<&>'% face", {0, 3, n - 1}, {{1, 2, 3}, {0, 0, 0}, {-1, 1e-17, 4}}});
   cloud.sets.push_back({"probe µ", {7}, {}});
   cloud.sets.push_back({"nobody", {}, {}});
@@ -89,6 +91,8 @@ TEST(CloudFile, RoundTripKeepsEveryBit) {
   EXPECT_TRUE(same_bits(read.A, cloud.A));
   EXPECT_TRUE(same_bits(read.centroid, cloud.centroid));
   EXPECT_EQ(read.cad_dimension, cloud.cad_dimension);
+  EXPECT_TRUE(same_bits(read.sight, cloud.sight));
+  EXPECT_EQ(read.hidden.pairs(), cloud.hidden.pairs());
   ASSERT_EQ(read.sets.size(), cloud.sets.size());
   for (std::size_t s = 0; s < cloud.sets.size(); ++s) {
     EXPECT_EQ(read.sets[s].name, cloud.sets[s].name);
@@ -173,7 +177,7 @@ TEST(CloudFile, AnotherFormatVersionIsRefusedWithBothNamed) {
           [](vtkPolyData& data) { data.GetFieldData()->GetArray("format_version")->SetTuple1(0, 7); });
   const std::string message = message_of(folder / "cloud.vtp");
   EXPECT_NE(message.find("version is 7"), std::string::npos) << message;
-  EXPECT_NE(message.find("reads version 1"), std::string::npos) << message;
+  EXPECT_NE(message.find("reads version 2"), std::string::npos) << message;
 }
 
 TEST(CloudFile, AMissingArrayAndABadValueAreNamed) {
@@ -186,6 +190,13 @@ TEST(CloudFile, AMissingArrayAndABadValueAreNamed) {
   rewrite(folder / "b.vtp",
           [](vtkPolyData& data) { data.GetPointData()->GetArray("volume")->SetTuple1(4, -1); });
   EXPECT_NE(message_of(folder / "b.vtp").find("particle 4"), std::string::npos);
+  for (const double bad : {-1.0, 0.0, 500.0}) {
+    write_cloud(awkward_cloud(), folder / "c.vtp");
+    rewrite(folder / "c.vtp", [&](vtkPolyData& data) {
+      data.GetFieldData()->GetArray("hidden_pairs")->SetComponent(0, 1, bad);
+    });
+    EXPECT_NE(message_of(folder / "c.vtp").find("hidden pair"), std::string::npos) << bad;
+  }
 }
 
 TEST(CloudFile, AFullDiskIsNamed) {
