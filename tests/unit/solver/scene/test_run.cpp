@@ -155,3 +155,51 @@ TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
       std::find(forecast.left_out.begin(), forecast.left_out.end(), "fixed velocities (no [[boundary]])"),
       forecast.left_out.end());
 }
+
+TEST(Run, HalvesThatCannotSeeEachOtherDoNotFeelEachOther) {
+  auto cloud = test::box_lattice(8, 4, 4, Vec3(0.07, 0.03, 0.03));
+  ParticleSet left{"left", {}, {}};
+  std::vector<std::array<std::int32_t, 2>> pairs;
+  const auto is_left = [&](std::int32_t a) { return cloud.X[a].x() < 0.035; };
+  for (std::int32_t a = 0; a < cloud.size(); ++a) {
+    if (is_left(a))
+      left.particles.push_back(a);
+    for (std::int32_t b = a + 1; b < cloud.size(); ++b)
+      if (is_left(a) != is_left(b))
+        pairs.push_back({a, b});
+  }
+  cloud.sets.push_back(left);
+  cloud.hidden = {cloud.size(), pairs};
+  SceneSpec scene = impact();
+  scene.material.plasticity.reset();
+  scene.walls.clear();
+  scene.momentum_projection = false;
+  scene.initial = {{"left", {Expression("10*X/0.07"), Expression("0"), Expression("0")}}};
+  Recorded recorded;
+  run(scene, cloud, recorded.outputs(), Progress::silent());
+  double moved = 0;
+  for (std::int32_t a = 0; a < cloud.size(); ++a)
+    for (int c = 0; c < 3; ++c) {
+      const double u = recorded.last_displacement[3 * a + c];
+      if (is_left(a))
+        moved = std::max(moved, std::abs(u));
+      else
+        EXPECT_EQ(u, 0) << a;
+    }
+  EXPECT_GT(moved, 1e-6);
+}
+
+TEST(Run, SupportsBeyondTheSightOfTheCloudAreRefused) {
+  auto cloud = test::box_lattice(5, 5, 5, Vec3(1, 1, 1));
+  cloud.sight.assign(cloud.X.size(), 0.6);
+  SceneSpec scene = impact();
+  scene.walls.clear();
+  EXPECT_NO_THROW(forecast(scene, cloud));
+  scene.support = 2.5; // 0.625 m
+  try {
+    forecast(scene, cloud);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("sight"), std::string::npos) << e.what();
+  }
+}
