@@ -1,30 +1,13 @@
 #include "preprocess/seeding/column_scan.hpp"
 
+#include "preprocess/seeding/nearness.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace tessera::preprocess {
 namespace {
-
-double squared_distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-  return (p - a - t * along).squaredNorm();
-}
-
-double squared_distance_to_triangle(const Vec3& p, const std::array<Vec3, 3>& X, const Vec3& normal) {
-  bool above = true;
-  for (int k = 0; k < 3; ++k)
-    above &= normal.dot((X[(k + 1) % 3] - X[k]).cross(p - X[k])) >= 0;
-  if (above)
-    return std::pow(normal.dot(p - X[0]), 2);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k)
-    nearest = std::min(nearest, squared_distance_to_segment(p, X[k], X[(k + 1) % 3]));
-  return nearest;
-}
 
 /// A chord c that turns by the angle t has the height c/2 tan(t/4).
 double chord_height(double half_chord, const Vec3& before, const Vec3& after) {
@@ -225,7 +208,7 @@ void ColumnScan::mark_facet(std::int32_t f) {
       const Run ws = range(w, plane - reach, plane + reach);
       for (index[w] = ws.first; index[w] <= ws.second; ++index[w]) {
         const Vec3 p(at(0, index[0]), at(1, index[1]), at(2, index[2]));
-        if (std::abs(p[w] - plane) > reach || squared_distance_to_triangle(p, X, normal) > near * near)
+        if (std::abs(p[w] - plane) > reach || (p - nearest_on_triangle(p, X)).squaredNorm() > near * near)
           continue;
         mark(index, place(p, f, X, near));
       }

@@ -1,25 +1,32 @@
 #include "preprocess/seeding/random.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace tessera::preprocess {
 
-RandomPoints::RandomPoints(const Domain& domain, std::uint64_t seed) : domain_(&domain), bits_(seed) {
+RandomPoints::RandomPoints(const Domain& domain, std::uint64_t seed, SizeField size)
+    : domain_(&domain), size_(std::move(size)), numbers_(seed) {
   double total = 0;
-  volume_up_to_.reserve(domain.tets.size());
+  if (size_) {
+    parts_ = graded_parts(domain, size_);
+    for (const GradedPart& part : parts_)
+      share_up_to_.push_back(total += part.integral);
+    return;
+  }
+  share_up_to_.reserve(domain.tets.size());
   for (std::size_t t = 0; t < domain.tets.size(); ++t)
-    volume_up_to_.push_back(total += domain.tet_volume(t));
+    share_up_to_.push_back(total += domain.tet_volume(t));
 }
 
-double RandomPoints::uniform() {
-  return static_cast<double>(bits_() >> 11) * 0x1p-53;
+std::size_t RandomPoints::pick() {
+  const double share = numbers_.next() * share_up_to_.back();
+  return std::upper_bound(share_up_to_.begin(), share_up_to_.end() - 1, share) - share_up_to_.begin();
 }
 
-Vec3 RandomPoints::next() {
-  const double pick = uniform() * volume_up_to_.back();
-  const auto at = std::upper_bound(volume_up_to_.begin(), volume_up_to_.end() - 1, pick);
-  const auto& tet = domain_->tets[at - volume_up_to_.begin()];
-  double s = uniform(), t = uniform(), u = uniform();
+Vec3 RandomPoints::in_tetrahedron(const std::array<Vec3, 4>& X) {
+  double s = numbers_.next(), t = numbers_.next(), u = numbers_.next();
   // The cube s, t, u falls into six tetrahedra of equal volume; folds lay them onto s + t + u <= 1
   // (Rocchini and Cignoni, Generating random points in a tetrahedron, 2000).
   if (s + t > 1) {
@@ -35,9 +42,24 @@ Vec3 RandomPoints::next() {
     u = s + t + u - 1;
     s = 1 - t - old;
   }
-  const auto& X = domain_->vertices;
-  const Vec3& a = X[tet[0]];
-  return a + s * (X[tet[1]] - a) + t * (X[tet[2]] - a) + u * (X[tet[3]] - a);
+  Vec3 point = X[0] + s * (X[1] - X[0]) + t * (X[2] - X[0]) + u * (X[3] - X[0]);
+  if (domain_->dimension == 2)
+    point.z() = 0;
+  return point;
+}
+
+Vec3 RandomPoints::next() {
+  if (!size_) {
+    const auto& [a, b, c, d] = domain_->tets[pick()];
+    const auto& X = domain_->vertices;
+    return in_tetrahedron({X[a], X[b], X[c], X[d]});
+  }
+  for (;;) {
+    const GradedPart& part = parts_[pick()];
+    const Vec3 point = in_tetrahedron(part.corners);
+    if (numbers_.next() * part.most <= std::pow(size_(point), -domain_->dimension))
+      return point;
+  }
 }
 
 } // namespace tessera::preprocess

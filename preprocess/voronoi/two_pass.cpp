@@ -1,8 +1,10 @@
 #include "preprocess/voronoi/two_pass.hpp"
 
 #include "core/interrupt.hpp"
+#include "core/parallel.hpp"
 #include "preprocess/cloud/renumber.hpp"
 #include "preprocess/seeding/random.hpp"
+#include "preprocess/voronoi/relax.hpp"
 
 #include <fmt/format.h>
 
@@ -10,41 +12,71 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 namespace tessera::preprocess {
 namespace {
 
-TwoPass one_try(const TetBody& body, const CadTopology& cad, std::int64_t seeds, double merge,
-                std::uint64_t seed) {
-  RandomPoints random(*body.domain, seed);
-  std::vector<Vec3> points;
-  points.reserve(seeds);
-  for (std::int64_t i = 0; i < seeds; ++i)
-    points.push_back(body.scaling.in(random.next()));
-  points = permuted(points, hilbert_order(points));
-  const DelaunayGraph graph = delaunay_graph(points);
-  stop_if_interrupted("first Voronoi pass");
-  const PlacedPoints vertices = cell_vertices(RestrictedVoronoi(body, points, graph));
-  stop_if_interrupted("first Voronoi pass");
-  const double h = std::cbrt(body.domain->volume / static_cast<double>(vertices.size()));
-  return {merged(vertices, cad, merge * h / body.scaling.length), seeds, h};
-}
+/// Draws seeds and takes the vertices of their cells as particles, for any number of seeds.
+class FirstPass {
+ public:
+  FirstPass(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request)
+      : body_(body), cad_(cad), request_(request), volume_(graded_volume(*body.domain, request.size)) {}
+
+  TwoPass operator()(std::int64_t count) const {
+    const int dimension = body_.domain->dimension;
+    RandomPoints random(*body_.domain, request_.seed, request_.size);
+    std::vector<Vec3> seeds;
+    seeds.reserve(count);
+    for (std::int64_t i = 0; i < count; ++i)
+      seeds.push_back(body_.scaling.in(random.next()));
+    seeds = permuted(seeds, hilbert_order(seeds));
+    if (request_.relax_seeds > 0)
+      seeds = relaxed_seeds(body_, cad_, std::move(seeds), request_.size, request_.relax_seeds,
+                            Progress::silent());
+    const DelaunayGraph graph = delaunay_graph(seeds);
+    stop_if_interrupted("first Voronoi pass");
+    const PlacedPoints vertices = cell_vertices(RestrictedVoronoi(body_, seeds, graph));
+    stop_if_interrupted("first Voronoi pass");
+    const double h = std::pow(volume_ / static_cast<double>(vertices.size()), 1. / dimension);
+    const double radius = request_.merge * h / body_.scaling.length;
+    std::vector<double> radii(vertices.X.size(), radius);
+    if (request_.size)
+      for_each(vertices.size(),
+               [&](std::int64_t i) { radii[i] *= request_.size(body_.scaling.out(vertices.X[i])); });
+    return {merged(vertices, cad_, radii, dimension), count, h};
+  }
+
+  /// Seeds that give about this many particles.
+  std::int64_t seeds_for(double particles) const {
+    // Vertices a seed; half of them are left at the usual radius of 0.5.
+    const double vertices = body_.domain->dimension == 2 ? 2.2 : 6.5;
+    return std::max<std::int64_t>(1,
+                                  std::llround(particles / (vertices * std::max(0.2, 1 - request_.merge))));
+  }
+
+ private:
+  const TetBody& body_;
+  const CadTopology& cad_;
+  const TwoPassRequest& request_;
+  double volume_;
+};
 
 } // namespace
 
 TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request,
                         Progress& progress) {
-  const auto& [count, merge, seed, size, relax_seeds] = request;
   constexpr int most_tries = 16;
-  const auto wanted = static_cast<double>(count);
+  const auto wanted = static_cast<double>(request.count);
   progress.begin("first Voronoi pass", most_tries);
   TwoPass best;
   double best_error = std::numeric_limits<double>::infinity();
   std::set<std::int64_t> tried;
-  // About 6.5 vertices a seed, half of them left at the usual radius of 0.5.
-  auto seeds = std::max<std::int64_t>(1, std::llround(wanted / (6.5 * std::max(0.2, 1 - merge))));
+  const FirstPass first_pass(body, cad, request);
+  auto seeds = first_pass.seeds_for(wanted);
   for (int t = 0; t < most_tries && tried.insert(seeds).second; ++t) {
-    TwoPass next = one_try(body, cad, seeds, merge, seed);
+    TwoPass next = first_pass(seeds);
     const auto got = static_cast<double>(next.points.size());
     const double error = std::abs(got - wanted) / wanted;
     progress.advance(t + 1, fmt::format("{} seeds, {} particles", seeds, next.points.size()));
