@@ -54,6 +54,8 @@ void Domain::measure() {
     lower = lower.cwiseMin(X);
     upper = upper.cwiseMax(X);
   }
+  if (dimension == 2)
+    lower[2] = upper[2] = 0;
 }
 
 void Domain::validate(const std::string& origin) const {
@@ -63,9 +65,15 @@ void Domain::validate(const std::string& origin) const {
   const auto count = static_cast<std::int32_t>(vertices.size());
   const auto known = [&](std::int32_t v) { return v >= 0 && v < count; };
 
+  require(dimension == 2 || dimension == 3, fmt::format("a body of dimension {}", dimension), origin,
+          "bodies have 2 or 3");
   require(!tets.empty(), "the body has no volume", origin, "give a closed solid");
-  for (const Vec3& X : vertices)
+  for (const Vec3& X : vertices) {
     require(X.allFinite(), "a vertex is not a finite point", origin, "repair the file");
+    require(dimension == 3 || std::abs(X[2]) == 0.5,
+            fmt::format("a vertex of a plane body is at z = {:.6g}, on neither lid", X[2]), origin,
+            "draw plane bodies out from -1/2 to 1/2");
+  }
   for (std::size_t t = 0; t < tets.size(); ++t) {
     if (!std::all_of(tets[t].begin(), tets[t].end(), known))
       throw InputError(fmt::format("tetrahedron {} names a vertex that is not there", t), origin,
@@ -89,8 +97,13 @@ void Domain::validate(const std::string& origin) const {
         !std::all_of(facet.vertices.begin(), facet.vertices.end(), behind))
       throw InputError(fmt::format("boundary triangle {} is not a face of its tetrahedron", f), origin,
                        "remesh the body");
-    if (facet.surface < 0 || facet.surface >= static_cast<std::int32_t>(surfaces.size()))
-      throw InputError(fmt::format("boundary triangle {} lies on no surface", f), origin, "repair the file");
+    const auto height = [&](int v) { return vertices[facet.vertices[v]][2]; };
+    const bool on_lid = dimension == 2 && height(0) == height(1) && height(0) == height(2);
+    if (on_lid ? facet.surface != lid
+               : facet.surface < 0 || facet.surface >= static_cast<std::int32_t>(surfaces.size()))
+      throw InputError(on_lid ? fmt::format("boundary triangle {} is a lid's but lies on a surface", f)
+                              : fmt::format("boundary triangle {} lies on no surface", f),
+                       origin, "repair the file");
     const Vec3 &A = vertices[facet.vertices[0]], &B = vertices[facet.vertices[1]],
                &C = vertices[facet.vertices[2]];
     const Vec3 normal = (B - A).cross(C - A) / 2;

@@ -7,7 +7,7 @@
 namespace tessera::preprocess {
 namespace {
 
-constexpr std::string_view magic = "TESSDOM1";
+constexpr std::string_view magic = "TESSDOM2";
 constexpr std::uint32_t byte_order = 0x01020304;
 
 std::uint64_t fnv1a(std::string_view bytes) {
@@ -20,40 +20,16 @@ std::uint64_t fnv1a(std::string_view bytes) {
 class Writer {
  public:
   template <class T>
-  void operator()(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* first = reinterpret_cast<const char*>(&value);
-    bytes_.append(first, sizeof value);
+  void number(const T& value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
-  void operator()(const Vec3& X) {
-    for (int c = 0; c < 3; ++c)
-      (*this)(X[c]);
-  }
-  void operator()(const Domain::Facet& facet) {
-    (*this)(facet.vertices);
-    (*this)(facet.surface);
-    (*this)(facet.tet);
-  }
-  void operator()(const Domain::FeatureEdge& edge) {
-    (*this)(edge.vertices);
-    (*this)(edge.curve);
-  }
-  void operator()(const std::string& text) {
-    (*this)(std::uint64_t{text.size()});
-    bytes_ += text;
-  }
-  void operator()(const Domain::Group& group) {
-    (*this)(group.name);
-    (*this)(group.dimension);
-    (*this)(group.surfaces);
-    (*this)(group.curves);
-    (*this)(group.vertices);
+  void text(const std::string& value) {
+    number(std::uint64_t{value.size()});
+    bytes_ += value;
   }
   template <class T>
-  void operator()(const std::vector<T>& values) {
-    (*this)(std::uint64_t{values.size()});
-    for (const T& value : values)
-      (*this)(value);
+  void size(const std::vector<T>& values) {
+    number(std::uint64_t{values.size()});
   }
   std::string&& take() { return std::move(bytes_); }
 
@@ -65,38 +41,15 @@ class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
-  void operator()(T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
+  void number(T& value) {
     std::memcpy(&value, take(sizeof value).data(), sizeof value);
   }
-  void operator()(Vec3& X) {
-    for (int c = 0; c < 3; ++c)
-      (*this)(X[c]);
-  }
-  void operator()(Domain::Facet& facet) {
-    (*this)(facet.vertices);
-    (*this)(facet.surface);
-    (*this)(facet.tet);
-  }
-  void operator()(Domain::FeatureEdge& edge) {
-    (*this)(edge.vertices);
-    (*this)(edge.curve);
-  }
-  void operator()(std::string& text) { text = take(count(1)); }
-  void operator()(Domain::Group& group) {
-    (*this)(group.name);
-    (*this)(group.dimension);
-    (*this)(group.surfaces);
-    (*this)(group.curves);
-    (*this)(group.vertices);
-  }
+  void text(std::string& value) { value = take(count(1)); }
   template <class T>
-  void operator()(std::vector<T>& values) {
+  void size(std::vector<T>& values) {
     // Every element takes at least four bytes, so a false count cannot ask for more memory than the stream
     // has.
     values.resize(count(4));
-    for (T& value : values)
-      (*this)(value);
   }
   bool at_end() const { return bytes_.empty(); }
 
@@ -110,7 +63,7 @@ class Reader {
   }
   std::size_t count(std::size_t least_bytes_each) {
     std::uint64_t n = 0;
-    (*this)(n);
+    number(n);
     if (n > bytes_.size() / least_bytes_each)
       throw std::runtime_error("the domain ends early");
     return n;
@@ -118,20 +71,30 @@ class Reader {
   std::string_view bytes_;
 };
 
-/// The members in the order of the stream, for either direction.
-template <class Visitor, class DomainT>
-void visit(Visitor& io, DomainT& domain) {
-  io(domain.vertices);
-  io(domain.tets);
-  io(domain.facets);
-  io(domain.feature_edges);
-  io(domain.corners);
-  io(domain.surfaces);
-  io(domain.groups);
-  io(domain.volume);
-  io(domain.cad_volume);
-  io(domain.lower);
-  io(domain.upper);
+/// Members in the order of the stream, for either direction. T is a type of Domain's, const for a Writer.
+template <class IO, class T>
+void visit(IO& io, T& value) {
+  using Type = std::remove_const_t<T>;
+  const auto members = [&io](auto&... member) { (visit(io, member), ...); };
+  if constexpr (std::is_arithmetic_v<Type>)
+    io.number(value);
+  else if constexpr (std::is_same_v<Type, std::string>)
+    io.text(value);
+  else if constexpr (std::is_same_v<Type, Domain::Facet>)
+    members(value.vertices, value.surface, value.tet);
+  else if constexpr (std::is_same_v<Type, Domain::FeatureEdge>)
+    members(value.vertices, value.curve);
+  else if constexpr (std::is_same_v<Type, Domain::Group>)
+    members(value.name, value.dimension, value.surfaces, value.curves, value.vertices);
+  else if constexpr (std::is_same_v<Type, Domain>)
+    members(value.dimension, value.vertices, value.tets, value.facets, value.feature_edges, value.corners,
+            value.surfaces, value.groups, value.volume, value.cad_volume, value.lower, value.upper);
+  else { // vectors, arrays and points
+    if constexpr (requires { value.capacity(); })
+      io.size(value);
+    for (auto& element : value)
+      visit(io, element);
+  }
 }
 
 } // namespace

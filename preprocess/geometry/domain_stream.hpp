@@ -1,6 +1,6 @@
 /// A Domain as bytes: how the importer hands its result to the program that started it.
 ///
-/// Layout, in the byte order of the machine (both ends run on the same one): the eight characters "TESSDOM1",
+/// Layout, in the byte order of the machine (both ends run on the same one): the eight characters "TESSDOM2",
 /// the number 0x01020304, then each member of Domain in the order of its declaration with its count in front,
 /// and last a 64-bit FNV-1a hash of everything before it.
 #pragma once

@@ -121,7 +121,8 @@ void find_corners(Domain& domain, const CornerRule& rule) {
   for (const auto& [v, edges] : at) {
     if (!candidate(v))
       continue;
-    bool corner = edges.size() != 2;
+    bool corner = edges.size() != 2 || (domain.dimension == 2 && domain.feature_edges[edges[0]].curve !=
+                                                                     domain.feature_edges[edges[1]].curve);
     if (!corner) {
       std::optional<double> kink;
       if (rule.kink)

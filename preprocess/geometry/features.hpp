@@ -5,6 +5,10 @@
 /// CAD says so). A corner is a vertex where one feature edge ends, or three or more meet, or two meet with a
 /// kink, so that the one vertex which starts and ends a rim is none. A point that lies on no feature edge is
 /// a corner where the facets around it are far from one plane (the tip of a cone).
+///
+/// In a slab (dimension 2) the feature edges are the upper rim. What was a line between two tangential
+/// surfaces is a point between two curves there, so a vertex of the rim where two different curves meet is a
+/// corner too, kink or none.
 #pragma once
 
 #include "preprocess/geometry/domain.hpp"

@@ -6,9 +6,12 @@
 #include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/domain_stream.hpp"
 #include "preprocess/geometry/geo_script.hpp"
+#include "preprocess/geometry/importer/request.hpp"
+#include "preprocess/geometry/shapes.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -60,9 +63,14 @@ bool speaks_of_memory(const std::string& output) {
   return false;
 }
 
+/// What messages call the source.
+std::string name_of(const GeometrySource& source) {
+  return source.shape ? fmt::format("shape \"{}\"", source.shape->name) : source.file.string();
+}
+
 /// Throws what the end of the importer means to a user, unless it ended well.
 void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path& program) {
-  const std::string name = source.file.string();
+  const std::string name = name_of(source);
   const auto mebibytes = source.bytes >> 20;
   const auto out_of_memory = [&] {
     return InputError(fmt::format("the import needs more than its memory limit of {} MiB", mebibytes), name,
@@ -156,17 +164,62 @@ fs::path file_to_open(const GeometrySource& source, CadFormat format, const fs::
 }
 
 void note_domain(const Domain& domain, const GeometrySource& source, Progress& progress) {
-  const double metres = metres_per_unit(source.unit);
+  const std::string unit = source.shape ? "m" : source.unit;
+  const double metres = metres_per_unit(unit);
   const Vec3 low = domain.lower / metres, high = domain.upper / metres;
-  progress.note(fmt::format("{}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) {}",
-                            source.file.filename().string(), low[0], low[1], low[2], high[0], high[1],
-                            high[2], source.unit));
-  progress.note(fmt::format(
-      "volume {:.9g} m^3 in {} tetrahedra, {:.9g} m^3 by the CAD ({:+.2g} relative); {} surfaces, {} "
-      "corners",
-      domain.volume, domain.tets.size(), domain.cad_volume,
-      (domain.volume - domain.cad_volume) / domain.cad_volume, domain.surfaces.size(),
-      domain.corners.size()));
+  const std::string name = source.shape ? name_of(source) : source.file.filename().string();
+  const bool plane = domain.dimension == 2;
+  if (plane)
+    progress.note(fmt::format("{}: ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) {}", name, low[0], low[1], high[0],
+                              high[1], unit));
+  else
+    progress.note(fmt::format("{}: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) {}", name, low[0],
+                              low[1], low[2], high[0], high[1], high[2], unit));
+  const char* of = plane ? "m^2" : "m^3";
+  progress.note(
+      fmt::format("{} {:.9g} {} in {} {}, {:.9g} {} by the CAD ({:+.2g} relative); {} {}, {} corners",
+                  plane ? "area" : "volume", domain.volume, of,
+                  plane ? domain.tets.size() / 3 : domain.tets.size(), plane ? "triangles" : "tetrahedra",
+                  domain.cad_volume, of, (domain.volume - domain.cad_volume) / domain.cad_volume,
+                  domain.surfaces.size(), plane ? "curves" : "surfaces", domain.corners.size()));
+}
+
+/// A shape in a unit that makes its largest length about sixteen: OpenCASCADE's tolerances are absolute. A
+/// power of two, so that nothing is rounded.
+importer::Request shape_request(const GeometrySource& source) {
+  check_shape(*source.shape, source.dimension);
+  importer::Request request;
+  request.shape = source.shape;
+  double largest = 0;
+  for (const auto& length : source.shape->lengths)
+    largest = std::max(largest, *std::max_element(length.begin(), length.end()));
+  request.metres = std::exp2(std::floor(std::log2(largest)) - 4);
+  for (auto& length : request.shape->lengths)
+    for (double& x : length)
+      x /= request.metres;
+  return request;
+}
+
+/// A file, checked from outside; what gmsh is to open lies in `folder`.
+importer::Request file_request(const GeometrySource& source, const fs::path& folder, Progress& progress) {
+  metres_per_unit(source.unit);
+  const CadFormat format = check_cad_file(source.file);
+  if (format == CadFormat::geo)
+    check_script(source);
+  require(source.dimension == 3 || format != CadFormat::stl,
+          "a file of bare surface triangles holds no plane figure", source.file.string(),
+          "give a .geo, .step, .brep or .msh file, or set [geometry] dimension = 3");
+  require(!source.background_sizes || format == CadFormat::geo || format == CadFormat::msh,
+          "there are no mesh sizes in files of this kind", source.file.string(),
+          "give a .geo file with a Background Field or sizes at its points, or a .msh file");
+  importer::Request request;
+  // STEP lengths come in the file's own unit, all others are plain numbers.
+  const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
+  if (format == CadFormat::step)
+    request.cad_unit = occ_name(unit);
+  request.metres = metres_per_unit(unit);
+  request.file = file_to_open(source, format, folder).string();
+  return request;
 }
 
 } // namespace
@@ -182,27 +235,35 @@ double metres_per_unit(const std::string& unit) {
 }
 
 Domain import_geometry(const GeometrySource& source, Progress& progress) {
-  const std::string name = source.file.string();
-  metres_per_unit(source.unit);
+  const std::string name = name_of(source);
   require(std::isfinite(source.tolerance) && source.tolerance > 0, "the tolerance is not a positive number",
           "[geometry] tolerance", "give a relative error of the volume such as 1e-3");
   require(std::isfinite(source.mesh_size) && source.mesh_size >= 0,
           "the mesh size is negative or not a number", "[geometry] mesh_size",
           "give a length in metres, or 0 for a tenth of the part");
-  const CadFormat format = check_cad_file(source.file);
-  if (format == CadFormat::geo)
-    check_script(source);
-  // STEP lengths come in the file's own unit, all others are plain numbers.
-  const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
+  require(source.dimension == 2 || source.dimension == 3,
+          fmt::format("there are no bodies of dimension {}", source.dimension), "[geometry] dimension",
+          "give 2 for a plane body, or 3");
+  require(source.solid >= 0, fmt::format("solid is {}", source.solid), "[geometry] solid",
+          "count from 1, or give 0 where there is only one");
 
   const TemporaryFolder folder;
-  const fs::path opened = file_to_open(source, format, folder.path());
+  importer::Request request =
+      source.shape ? shape_request(source) : file_request(source, folder.path(), progress);
   const fs::path result = folder.path() / "domain";
+  request.name = name;
+  request.output = result.string();
+  request.tolerance = source.tolerance;
+  request.mesh_size = source.mesh_size / request.metres;
+  request.dimension = source.dimension;
+  request.solid = source.solid;
+  request.close_holes = source.close_holes;
+  request.background_sizes = source.background_sizes;
+
   const fs::path program = companion_program("tessera-import");
-  const ChildEnd end = run_child(
-      {program.string(), opened.string(), name, fmt::format("{:.17g}", metres_per_unit(unit)), occ_name(unit),
-       fmt::format("{:.17g}", source.tolerance), fmt::format("{:.17g}", source.mesh_size), result.string()},
-      folder.path(), {source.seconds, source.bytes});
+  std::vector<std::string> command = importer::to_arguments(request);
+  command.insert(command.begin(), program.string());
+  const ChildEnd end = run_child(command, folder.path(), {source.seconds, source.bytes});
   check_end(end, source, program);
 
   Domain domain;

@@ -43,9 +43,9 @@ const std::vector<ShapeKind>& known_shapes();
 struct GeometrySource {
   std::filesystem::path file; ///< .step/.stp, .iges/.igs, .brep, .geo, .msh (4.1, 2.2), .stl, .obj, .ply
   std::string unit; ///< what one unit of the file is: "m", "cm", "mm", "um", "in"; STEP converts to it
-  std::optional<ShapeSpec> shape; ///< instead of `file` and `unit`
-  int dimension = 3;              ///< 2: the plane surfaces of the file, in the plane z = const
-  bool trust = false;             ///< a .geo file may run programs; refused unless trusted
+  std::optional<ShapeSpec> shape{}; ///< instead of `file` and `unit`
+  int dimension = 3;                ///< 2: the plane surfaces of the file, in the plane z = const
+  bool trust = false;               ///< a .geo file may run programs; refused unless trusted
   int solid = 0; ///< which solid of a file with several, counted from 1; 0: there must be only one
   /// Holes of a triangle surface (STL, OBJ, PLY) with at most this many edges are closed; 0: none is.
   int close_holes = 0;

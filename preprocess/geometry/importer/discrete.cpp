@@ -1,7 +1,9 @@
 #include "core/error.hpp"
+#include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/features.hpp"
 #include "preprocess/geometry/importer/gmsh_model.hpp"
-#include "preprocess/geometry/importer/request.hpp"
+#include "preprocess/geometry/importer/gmsh_session.hpp"
+#include "preprocess/geometry/importer/import_file.hpp"
 #include "preprocess/geometry/stl.hpp"
 
 #include <fmt/format.h>
@@ -78,7 +80,7 @@ void refuse_other_elements(const std::string& name) {
 Domain import_mesh(const Request& request) {
   open_file(request.file, request.name);
   refuse_other_elements(request.name);
-  TaggedDomain tagged = read_tetrahedra(request.name, false);
+  TaggedDomain tagged = read_tetrahedra(tags_of(3), request.name, false);
   Domain& domain = tagged.domain;
 
   const auto bare = [](const Domain::Facet& facet) { return facet.surface < 0; };
@@ -102,7 +104,7 @@ Domain import_mesh(const Request& request) {
   }
   preprocess::find_corners(domain, {});
   preprocess::chain_curves(domain);
-  read_groups(tagged);
+  read_groups(tagged, tags_of(3));
   finish(tagged, request.name);
   return std::move(domain);
 }
@@ -143,12 +145,13 @@ Domain import_stl(const Request& request) {
   gmsh::model::geo::addVolume(loops);
   gmsh::model::geo::synchronize();
   first_complaint();
-  fill_volume(request.mesh_size > 0 ? request.mesh_size : (high - low).norm() / 10);
+  fill_volume({.largest = request.mesh_size > 0 ? request.mesh_size : (high - low).norm() / 10}, {},
+              request.name);
   if (const std::string complaint = first_complaint(); !complaint.empty())
     throw InputError(fmt::format("the volume inside the surface cannot be meshed: {}", complaint),
                      request.name, "repair the surface: it may intersect itself");
 
-  TaggedDomain tagged = read_tetrahedra(request.name, true);
+  TaggedDomain tagged = read_tetrahedra(tags_of(3), request.name, true);
   Domain& domain = tagged.domain;
   preprocess::surfaces_by_angle(domain, crease);
   preprocess::find_feature_edges(domain, crease);

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "preprocess/geometry/boundary.hpp"
+#include "preprocess/geometry/importer/gmsh_session.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -36,9 +37,10 @@ std::array<std::int32_t, N> sorted(std::array<std::int32_t, N> key) {
 }
 
 /// Surfaces that wall the body off: on its boundary, not embedded in it.
-std::set<int> bounding_surfaces() {
+std::set<int> bounding_surfaces(const std::vector<int>& volumes) {
   gmsh::vectorpair solids, walls;
-  gmsh::model::getEntities(solids, 3);
+  for (const int volume : volumes)
+    solids.emplace_back(3, volume);
   gmsh::model::getBoundary(solids, walls, true, false);
   std::set<int> tags;
   for (const auto& wall : walls)
@@ -47,8 +49,8 @@ std::set<int> bounding_surfaces() {
 }
 
 /// Leaves out the tetrahedra that walls part from those at the outer boundary.
-void drop_cavities(Domain& domain, const std::map<Triangle, int>& tag_of_triangle) {
-  const auto walls = bounding_surfaces();
+void drop_cavities(Domain& domain, const std::map<Triangle, int>& tag_of_triangle,
+                   const std::set<int>& walls) {
   const auto tets = domain.tets.size();
   std::map<Triangle, std::int32_t> first; // face without a wall in it, by the first of its two tetrahedra
   std::vector<std::vector<std::int32_t>> next(tets);
@@ -88,92 +90,7 @@ void drop_cavities(Domain& domain, const std::map<Triangle, int>& tag_of_triangl
   domain.tets.resize(kept);
 }
 
-std::vector<int> tags_of(int dimension) {
-  gmsh::vectorpair entities;
-  gmsh::model::getEntities(entities, dimension);
-  std::vector<int> tags;
-  for (const auto& entity : entities)
-    tags.push_back(entity.second);
-  std::sort(tags.begin(), tags.end());
-  return tags;
-}
-
 } // namespace
-
-Gmsh::Gmsh() {
-  gmsh::initialize(0, nullptr, false);
-  for (const char* threads :
-       {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"})
-    gmsh::option::setNumber(threads, 1);
-  gmsh::option::setNumber("General.Terminal", 1);
-  gmsh::option::setNumber("General.AbortOnError", 0);
-  gmsh::logger::start();
-}
-
-Gmsh::~Gmsh() {
-  gmsh::finalize();
-}
-
-std::string first_complaint() {
-  std::vector<std::string> lines;
-  gmsh::logger::get(lines);
-  gmsh::logger::stop();
-  gmsh::logger::start();
-  constexpr std::string_view prefix = "Error: ";
-  for (const std::string& line : lines)
-    if (line.starts_with(prefix))
-      return line.substr(prefix.size());
-  return {};
-}
-
-void open_file(const std::string& file, const std::string& name) {
-  std::string complaint;
-  try {
-    gmsh::open(file);
-  } catch (const std::string& error) {
-    complaint = error;
-  }
-  if (const std::string logged = first_complaint(); !logged.empty())
-    complaint = logged;
-  // The message names the link we gave gmsh; the user knows the file by its own name, which is there as well.
-  if (const auto at = complaint.find(file); at != std::string::npos)
-    complaint.replace(at, file.size(), "file");
-  require(complaint.empty(), fmt::format("gmsh cannot read the file: {}", complaint), name,
-          "repair or export it again");
-}
-
-void set_sizes(double largest, double smallest, double segments) {
-  const std::pair<const char*, double> options[] = {{"Mesh.MeshSizeMin", smallest},
-                                                    {"Mesh.MeshSizeMax", largest},
-                                                    {"Mesh.MeshSizeFactor", 1},
-                                                    {"Mesh.MeshSizeFromPoints", 0},
-                                                    {"Mesh.MeshSizeFromCurvature", segments},
-                                                    {"Mesh.MeshSizeExtendFromBoundary", 1},
-                                                    {"Mesh.ElementOrder", 1},
-                                                    {"Mesh.RecombineAll", 0},
-                                                    {"Mesh.SubdivisionAlgorithm", 0},
-                                                    {"Mesh.Algorithm", 6},
-                                                    {"Mesh.RandomSeed", 1},
-                                                    {"Mesh.SaveAll", 0},
-                                                    {"Mesh.SecondOrderIncomplete", 0},
-                                                    {"Mesh.MeshOnlyVisible", 0},
-                                                    {"Mesh.RandomFactor", 1e-9},
-                                                    {"Mesh.RandomFactor3D", 1e-12},
-                                                    {"Mesh.MeshOnlyEmpty", 0}};
-  for (const auto& [option, value] : options)
-    gmsh::option::setNumber(option, value);
-}
-
-void fill_volume(double size) {
-  set_sizes(size, 0, 0);
-  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-  // The constrained Delaunay tetrahedra of the surface's own vertices: two to three times slower than HXT,
-  // but HXT's result depends on where the system happens to put its memory, and has flat tetrahedra.
-  gmsh::option::setNumber("Mesh.Algorithm3D", 3);
-  gmsh::option::setNumber("Mesh.Optimize", 0);
-  gmsh::option::setNumber("Mesh.OptimizeNetgen", 0);
-  gmsh::model::mesh::generate(3);
-}
 
 preprocess::Triangles surface_triangles() {
   preprocess::Triangles surface;
@@ -193,7 +110,7 @@ preprocess::Triangles surface_triangles() {
   return surface;
 }
 
-TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces) {
+TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::string& name, bool need_surfaces) {
   TaggedDomain tagged;
   Domain& domain = tagged.domain;
   std::vector<std::size_t> nodes;
@@ -205,7 +122,7 @@ TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces) {
 
   std::vector<std::size_t> corners;
   std::set<std::size_t> used;
-  for (const int tag : tags_of(3)) {
+  for (const int tag : volumes) {
     const auto found = elements(tet_type, tag);
     corners.insert(corners.end(), found.nodes.begin(), found.nodes.end());
     used.insert(found.nodes.begin(), found.nodes.end());
@@ -244,7 +161,7 @@ TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces) {
         tag_of_triangle.try_emplace(sorted(key), tag);
     }
   }
-  drop_cavities(domain, tag_of_triangle);
+  drop_cavities(domain, tag_of_triangle, bounding_surfaces(volumes));
   domain.facets = preprocess::boundary_of(domain.tets);
   std::vector<int> tags(domain.facets.size(), -1);
   for (std::size_t f = 0; f < tags.size(); ++f) {
@@ -299,7 +216,8 @@ void read_curves(TaggedDomain& tagged) {
       edge.curve = tagged.curve_index.at(it->second);
 }
 
-void read_groups(TaggedDomain& tagged) {
+void read_groups(TaggedDomain& tagged, const std::vector<int>& volumes) {
+  const bool others = tags_of(3).size() > volumes.size();
   gmsh::vectorpair physicals;
   gmsh::model::getPhysicalGroups(physicals);
   for (const auto& [dimension, physical] : physicals) {
@@ -311,7 +229,9 @@ void read_groups(TaggedDomain& tagged) {
     std::vector<int> entities;
     gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
     std::sort(entities.begin(), entities.end());
+    bool of_body = false;
     for (const int tag : entities) {
+      of_body = of_body || (dimension == 3 && std::count(volumes.begin(), volumes.end(), tag) > 0);
       if (dimension == 2) {
         const auto it = std::find(tagged.surface_tags.begin(), tagged.surface_tags.end(), tag);
         if (it != tagged.surface_tags.end())
@@ -328,7 +248,9 @@ void read_groups(TaggedDomain& tagged) {
             group.vertices.push_back(it->second);
       }
     }
-    tagged.domain.groups.push_back(std::move(group));
+    of_body = of_body || !group.surfaces.empty() || !group.curves.empty() || !group.vertices.empty();
+    if (of_body || !others)
+      tagged.domain.groups.push_back(std::move(group));
   }
 }
 

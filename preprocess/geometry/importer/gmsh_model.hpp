@@ -12,29 +12,7 @@
 
 namespace tessera::importer {
 
-/// Starts gmsh with one thread, no configuration files and fixed seeds: same file, same bits.
-class Gmsh {
- public:
-  Gmsh();
-  ~Gmsh();
-  Gmsh(const Gmsh&) = delete;
-  Gmsh& operator=(const Gmsh&) = delete;
-};
-
-/// Opens a file; InputError with gmsh's own first complaint when it has any.
-void open_file(const std::string& file, const std::string& name);
-
-/// First error gmsh has logged since it was last asked, without its prefix; empty when there was none.
-std::string first_complaint();
-
-/// Mesh edges: at most `largest`, with `segments` of them a full turn on curved surfaces, but none below
-/// `smallest` (the tip of a cone has no radius).
-void set_sizes(double largest, double smallest, double segments);
-
-/// Meshes the volume between the surface triangles that are there, coarse inside.
-void fill_volume(double size);
-
-/// Triangles of the model's surfaces (or of those listed), with their nodes' coordinates.
+/// Triangles of the model's surfaces, with their nodes' coordinates.
 preprocess::Triangles surface_triangles();
 
 /// Vertices, positive tetrahedra and their boundary, with gmsh's tags beside them.
@@ -45,11 +23,11 @@ struct TaggedDomain {
   std::map<int, std::int32_t> curve_index; ///< Domain curve of each gmsh curve that is a feature
 };
 
-/// Reads nodes and tetrahedra; where surfaces of the model wall a cavity off, those inside the cavity are
-/// left out (gmsh's constrained Delaunay fills it too). Facets get the surface whose triangle they are; the
-/// surfaces are those that bound the body, in the order of their tags, named face1, face2... by tag.
-/// `need_surfaces`: InputError when a facet has none (else its surface stays -1).
-TaggedDomain read_tetrahedra(const std::string& name, bool need_surfaces);
+/// Reads the nodes and tetrahedra of these volumes; where surfaces of the model wall a cavity off, those
+/// inside the cavity are left out (gmsh's constrained Delaunay fills it too). Facets get the surface whose
+/// triangle they are; the surfaces are those that bound the body, in the order of their tags, named face1,
+/// face2... by tag. `need_surfaces`: InputError when a facet has none (else its surface stays -1).
+TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::string& name, bool need_surfaces);
 
 /// Throws InputError unless the tetrahedra fill the volume inside their surface to rounding.
 void check_filled(preprocess::Domain& domain, double surface_volume, const std::string& name);
@@ -57,7 +35,8 @@ void check_filled(preprocess::Domain& domain, double surface_volume, const std::
 /// Curves of the feature edges from gmsh's line elements, numbered by tag.
 void read_curves(TaggedDomain& tagged);
 
-/// Physical groups of volumes, surfaces, curves and points.
-void read_groups(TaggedDomain& tagged);
+/// Physical groups of volumes, surfaces, curves and points. A group with nothing of this body in it is left
+/// out where the file holds other bodies.
+void read_groups(TaggedDomain& tagged, const std::vector<int>& volumes);
 
 } // namespace tessera::importer

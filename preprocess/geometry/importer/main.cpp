@@ -2,17 +2,18 @@
 /// preprocess/geometry/import.cpp, which limits its time and memory and turns its end, whatever it be, into a
 /// message.
 ///
-///     tessera-import FILE NAME UNIT STEP_UNIT TOLERANCE MESH_SIZE OUTPUT
+///     tessera-import KEY=VALUE...
 ///
-/// FILE is opened, NAME is what messages call it, UNIT is metres per unit of the numbers, STEP_UNIT the unit
-/// OpenCASCADE converts STEP lengths to ("-" for other formats), MESH_SIZE is in metres. Exit status: 0 with
-/// the domain in OUTPUT, 2 with a last line on standard error that begins with "tessera-import: ", 3 out of
-/// memory.
+/// with the members of importer/request.hpp. Exit status: 0 with the domain in the file `output`, 2 with a
+/// last line on standard error that begins with "tessera-import: ", 3 out of memory, 4 the output cannot be
+/// written.
 
 #include "core/error.hpp"
+#include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/domain_stream.hpp"
-#include "preprocess/geometry/importer/gmsh_model.hpp"
-#include "preprocess/geometry/importer/request.hpp"
+#include "preprocess/geometry/importer/gmsh_session.hpp"
+#include "preprocess/geometry/importer/import_file.hpp"
+#include "preprocess/geometry/shapes.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -27,30 +28,40 @@ namespace {
 using namespace tessera;
 
 preprocess::Domain import(const importer::Request& request) {
-  switch (request.format) {
+  const bool plane = request.dimension == 2;
+  if (request.shape)
+    return plane ? importer::import_plane_cad(request) : importer::import_cad(request);
+  switch (preprocess::check_cad_file(request.file)) {
   case preprocess::CadFormat::msh:
-    return importer::import_mesh(request);
+    return plane ? importer::import_plane_mesh(request) : importer::import_mesh(request);
   case preprocess::CadFormat::stl:
     return importer::import_stl(request);
   default:
-    return importer::import_cad(request);
+    return plane ? importer::import_plane_cad(request) : importer::import_cad(request);
   }
 }
 
-/// Lengths in metres from here on. A group for each named surface where the file has no groups of its own.
-void finish(preprocess::Domain& domain, double metres) {
+/// Lengths in metres from here on (but for the thickness of a slab).
+void to_metres(preprocess::Domain& domain, double metres) {
+  const bool plane = domain.dimension == 2, own_reference = domain.cad_volume == domain.volume;
   for (Vec3& X : domain.vertices)
-    X *= metres;
-  domain.cad_volume *= metres * metres * metres;
+    X = X.cwiseProduct(Vec3(metres, metres, plane ? 1.0 : metres));
   domain.measure();
-  if (!domain.groups.empty())
-    return;
-  for (std::size_t s = 0; s < domain.surfaces.size(); ++s) {
-    const auto same = [&](const auto& group) { return group.name == domain.surfaces[s]; };
-    auto group = std::find_if(domain.groups.begin(), domain.groups.end(), same);
-    if (group == domain.groups.end())
-      group = domain.groups.insert(group, {domain.surfaces[s], 2, {}, {}, {}});
-    group->surfaces.push_back(static_cast<std::int32_t>(s));
+  domain.cad_volume =
+      own_reference ? domain.volume : domain.cad_volume * metres * metres * (plane ? 1.0 : metres);
+}
+
+/// A group for each name of a surface, in the order of `names`.
+void group_by_name(preprocess::Domain& domain, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const auto same = [&](const auto& group) { return group.name == name; };
+    if (std::any_of(domain.groups.begin(), domain.groups.end(), same))
+      continue;
+    preprocess::Domain::Group group{name, 2, {}, {}, {}};
+    for (std::size_t s = 0; s < domain.surfaces.size(); ++s)
+      if (domain.surfaces[s] == name)
+        group.surfaces.push_back(static_cast<std::int32_t>(s));
+    domain.groups.push_back(std::move(group));
   }
 }
 
@@ -70,25 +81,23 @@ extern "C" const char* __asan_default_options() {
 #endif
 
 int main(int argc, char** argv) {
-  if (argc != 8)
-    return fail(2, "FILE NAME UNIT STEP_UNIT TOLERANCE MESH_SIZE OUTPUT are needed");
+  std::string name;
   try {
-    const double metres = std::strtod(argv[3], nullptr);
-    const importer::Request request{argv[1],
-                                    argv[2],
-                                    preprocess::check_cad_file(argv[1]),
-                                    argv[4],
-                                    std::strtod(argv[5], nullptr),
-                                    std::strtod(argv[6], nullptr) / metres};
+    const auto request = importer::from_arguments({argv + 1, argv + argc});
+    name = request.name;
     preprocess::Domain domain;
     {
       const importer::Gmsh gmsh;
       domain = import(request);
     }
-    finish(domain, metres);
+    to_metres(domain, request.metres);
+    if (request.shape)
+      group_by_name(domain, preprocess::shape_kind(request.shape->name, request.dimension).surfaces);
+    else if (domain.groups.empty())
+      group_by_name(domain, domain.surfaces);
     domain.validate(request.name);
     const std::string bytes = preprocess::to_bytes(domain);
-    std::ofstream out(argv[7], std::ios::binary);
+    std::ofstream out(request.output, std::ios::binary);
     out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     out.close();
     return out ? 0 : fail(4, "the result cannot be written");
@@ -97,10 +106,10 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return fail(2, error.what());
   } catch (const std::string& error) {
-    return fail(2, std::string(argv[2]) + ": " + error);
+    return fail(2, name + ": " + error);
   } catch (const char* error) {
-    return fail(2, std::string(argv[2]) + ": " + error);
+    return fail(2, name + ": " + error);
   } catch (int error) {
-    return fail(2, std::string(argv[2]) + ": gmsh gave up with code " + std::to_string(error));
+    return fail(2, name + ": gmsh gave up with code " + std::to_string(error));
   }
 }

@@ -1,17 +1,11 @@
-#include "core/error.hpp"
-#include "preprocess/geometry/import.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/unit/preprocess/geometry/import_fixture.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <set>
-#include <unistd.h>
 
 namespace tessera::preprocess {
 namespace {
@@ -19,42 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using std::numbers::pi;
 
-class ImportMeshes : public testing::Test {
- protected:
-  ImportMeshes() {
-    std::string name = (fs::temp_directory_path() / "tessera-test-XXXXXX").string();
-    EXPECT_NE(::mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  ~ImportMeshes() override { fs::remove_all(folder); }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name, std::ios::binary) << text;
-    return folder / name;
-  }
-  static Domain import(const fs::path& file, const std::string& unit = "mm") {
-    return import_geometry({.file = file, .unit = unit}, Progress::silent());
-  }
-  static std::string complaint(const fs::path& file) {
-    try {
-      import(file);
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(file.filename().string()), std::string::npos) << error.what();
-      return error.what();
-    }
-    return {};
-  }
-  fs::path folder;
-};
-
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << "it says: " << (text)
-
-std::size_t curves(const Domain& domain) {
-  std::set<std::int32_t> found;
-  for (const auto& edge : domain.feature_edges)
-    found.insert(edge.curve);
-  EXPECT_FALSE(found.contains(-1));
-  return found.size();
-}
+class ImportMeshes : public ImportFixture {};
 
 /// Boundary of a domain as STL.
 std::string text_stl(const Domain& domain) {
