@@ -188,12 +188,12 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   quality.corners = static_cast<std::int64_t>(domain.corners.size());
   assess(domain, cloud, cells.graph, particles.h, quality);
   check_volume(quality);
+  quality.area_correction = balance_areas(cloud);
   if (request.subvolumes == Subvolumes::uniform) {
     // The cells proved exact above; the particles share the volume alike all the same.
     cloud.V.assign(cloud.X.size(), domain.volume / static_cast<double>(cloud.size()));
     assess(domain, cloud, cells.graph, particles.h, quality);
   }
-  quality.area_correction = balance_areas(cloud);
   quality.area_imbalance = area_imbalance(cloud);
 
   look_around(domain, domain.dimension == 2 ? 14 : 30, request.sight, cloud);

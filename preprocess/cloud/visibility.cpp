@@ -48,8 +48,22 @@ class Boundary {
     dimension_ = domain.dimension;
   }
 
-  bool crossed_between(const Vec3& a, const Vec3& b) const {
-    return tree_.do_intersect(Segment(point(a), point(b)));
+  /// Whether the way between two points inside leaves the body: it crosses the boundary out and in again. A
+  /// way that only touches it (on a symmetric lattice many meet a re-entrant edge) does not.
+  bool leaves_between(const Vec3& a, const Vec3& b) const {
+    std::vector<Tree::Primitive_id> met;
+    tree_.all_intersected_primitives(Segment(point(a), point(b)), std::back_inserter(met));
+    double first = 1, last = 0;
+    for (const auto facet : met) {
+      const auto at = static_cast<std::size_t>(facet - triangles_.begin());
+      const double speed = normals_[at].dot(b - a);
+      if (speed == 0)
+        continue; // along the facet: those beside it tell
+      const double t = normals_[at].dot(corners_[at][0] - a) / speed;
+      first = std::min(first, t);
+      last = std::max(last, t);
+    }
+    return (last - first) * (b - a).norm() > a_touch;
   }
 
   bool inside(const Vec3& x) const {
@@ -82,6 +96,7 @@ class Boundary {
  private:
   static constexpr std::size_t largest_convex_check = 400; ///< facets, above it every pair is tested
   static constexpr double flat = 1e-9;                     ///< spacings
+  static constexpr double a_touch = 1e-6;                  ///< spacings; narrower slots are none
   std::vector<std::array<Vec3, 3>> corners_;
   std::vector<Vec3> normals_;
   std::vector<Triangle> triangles_;
@@ -141,7 +156,7 @@ HiddenPairs hidden_pairs(const Domain& domain, const ParticleCloud& cloud, const
       // doubtful ones the first one looks.
       if (r < sight[b] && (!doubtful[b] || b < a))
         return;
-      if (boundary.crossed_between(eyes[a].x, eyes[b].x))
+      if (boundary.leaves_between(eyes[a].x, eyes[b].x))
         hidden[a].push_back(
             {std::min(static_cast<std::int32_t>(a), b), std::max(static_cast<std::int32_t>(a), b)});
     });
