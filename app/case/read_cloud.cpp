@@ -104,27 +104,21 @@ preprocess::ParticleRequest read_particles(Table particles, int dimension) {
   request.backend = particles.choice_or("backend", "clipper", {"clipper", "voro"}) == "voro"
                         ? Backend::voro
                         : Backend::clipper;
-  // Each arrangement knows its own keys, so that none is taken and then ignored.
-  if (request.arrangement == Arrangement::lattice) {
-    const std::string kind =
-        particles.choice_or("lattice", "cubic",
-                            dimension == 2 ? std::vector<std::string>{"cubic", "hexagonal"}
-                                           : std::vector<std::string>{"cubic", "body_centred", "hexagonal"});
-    request.lattice = kind == "cubic"          ? LatticeKind::cubic
-                      : kind == "body_centred" ? LatticeKind::body_centred
-                                               : LatticeKind::hexagonal;
-    request.sight = particles.number_or("sight", request.sight, positive);
-  } else {
-    request.seed = static_cast<std::uint64_t>(particles.integer_or("seed", 1, 0, std::int64_t{1} << 53));
-    request.relax = static_cast<int>(particles.integer_or("relax", 0, 0, 10'000));
-    if (request.arrangement == Arrangement::voronoi) {
-      request.merge = particles.number_or("merge", request.merge, zero_to_one);
-      request.relax_seeds = static_cast<int>(particles.integer_or("relax_seeds", 0, 0, 10'000));
-    }
-    request.sizes_from_mesh = particles.boolean_or("sizes_from_mesh", false);
-    for (const Table& entry : particles.tables("refine"))
-      request.refine.push_back(read_refinement(entry));
-  }
+  const std::string kind =
+      particles.choice_or("lattice", "cubic",
+                          dimension == 2 ? std::vector<std::string>{"cubic", "hexagonal"}
+                                         : std::vector<std::string>{"cubic", "body_centred", "hexagonal"});
+  request.lattice = kind == "cubic"          ? LatticeKind::cubic
+                    : kind == "body_centred" ? LatticeKind::body_centred
+                                             : LatticeKind::hexagonal;
+  request.sight = particles.number_or("sight", request.sight, positive);
+  request.seed = static_cast<std::uint64_t>(particles.integer_or("seed", 1, 0, std::int64_t{1} << 53));
+  request.merge = particles.number_or("merge", request.merge, zero_to_one);
+  request.relax = static_cast<int>(particles.integer_or("relax", 0, 0, 10'000));
+  request.relax_seeds = static_cast<int>(particles.integer_or("relax_seeds", 0, 0, 10'000));
+  request.sizes_from_mesh = particles.boolean_or("sizes_from_mesh", false);
+  for (const Table& entry : particles.tables("refine"))
+    request.refine.push_back(read_refinement(entry));
   particles.finish();
 
   if (particles.has("spacing") && particles.has("count"))

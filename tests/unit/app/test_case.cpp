@@ -93,22 +93,23 @@ TEST(Case, RefinementsOfIrregularClouds) {
   EXPECT_EQ(c.particles.backend, preprocess::Backend::voro);
 }
 
-TEST(Case, KeysOfAnotherArrangementAreUnknown) {
+TEST(Case, WhatAnArrangementHasNoUseForIsRefusedUnlessItAsksForNothing) {
   const auto message = [](const std::string& particles) -> std::string {
     try {
-      cloud_case("shape = \"box\"\nsize = [1, 1, 1]", particles);
+      cloud_case("shape = \"box\"\nsize = [1, 1, 1]", particles + "\nspacing = 0.1");
     } catch (const InputError& e) {
       return e.what();
     }
     return "";
   };
-  EXPECT_NE(message("arrangement = \"lattice\"\nspacing = 0.1\nrelax = 3").find("relax"), std::string::npos);
-  EXPECT_NE(message("arrangement = \"voronoi\"\nspacing = 0.1\nlattice = \"cubic\"").find("lattice"),
+  EXPECT_NE(message("arrangement = \"lattice\"\nrelax = 3").find("relax does nothing to a lattice"),
             std::string::npos);
-  EXPECT_NE(message("arrangement = \"poisson\"\nspacing = 0.1\nmerge = 0.5").find("merge"),
-            std::string::npos);
-  EXPECT_NE(message("arrangement = \"voronoi\"\nspacing = 0.1\n"
-                    "refine = [{around = \"x_min\", factor = 2, until = 1}]")
+  EXPECT_NE(message("arrangement = \"lattice\"\nrefine = [{around = \"x_min\", factor = 0.5, until = 1}]"),
+            "");
+  EXPECT_NE(message("arrangement = \"voronoi\"\nlattice = \"hexagonal\""), "");
+  EXPECT_NE(message("arrangement = \"poisson\"\nrelax_seeds = 1"), "");
+  EXPECT_EQ(message("arrangement = \"lattice\"\nrelax = 0\nseed = 7\nmerge = 0.4"), "");
+  EXPECT_NE(message("arrangement = \"voronoi\"\nrefine = [{around = \"x_min\", factor = 2, until = 1}]")
                 .find("above 1"),
             std::string::npos);
 }
