@@ -123,6 +123,19 @@ preprocess::ParticleRequest read_particles(Table particles, int dimension) {
 
   if (particles.has("spacing") && particles.has("count"))
     particles.refuse("count", "particles has both spacing and count", "give one of them");
+  // What shapes the cloud must not be ignored in silence where the arrangement has no use for it.
+  const auto only_for = [&](const char* key, bool asked, bool serves, const char* arrangements) {
+    if (asked && !serves)
+      particles.refuse(key, fmt::format("particles.{} does nothing to a {} cloud", key, arrangement),
+                       fmt::format("it is for {}: remove it or change the arrangement", arrangements));
+  };
+  const bool lattice = request.arrangement == Arrangement::lattice;
+  only_for("lattice", request.lattice != LatticeKind::cubic, lattice, "lattices");
+  only_for("relax", request.relax > 0, !lattice, "irregular clouds");
+  only_for("relax_seeds", request.relax_seeds > 0, request.arrangement == Arrangement::voronoi,
+           "voronoi clouds");
+  only_for("sizes_from_mesh", request.sizes_from_mesh, !lattice, "irregular clouds");
+  only_for("refine", !request.refine.empty(), !lattice, "irregular clouds");
   if (!particles.has("spacing") && !particles.has("count"))
     throw InputError("particles has neither spacing nor count", particles.where(),
                      "add spacing = (metres) or count = (particles wanted)");
