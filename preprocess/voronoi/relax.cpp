@@ -29,7 +29,11 @@ void sweep(const TetBody& body, std::vector<Vec3>& points, int sweeps, const cha
     const DelaunayGraph graph = delaunay_graph(points);
     const RestrictedVoronoi voronoi(body, points, graph);
     std::vector<Vec3> next(points.size());
-    for_each_uneven(n, [&](std::int64_t i) { next[i] = next_of(voronoi, i); });
+    for_each_uneven(n, [&](std::int64_t i) {
+      next[i] = next_of(voronoi, i);
+      if (body.domain->dimension == 2)
+        next[i].z() = 0; // rounding would grow
+    });
     moved = std::sqrt(sum(n, 0.0, [&](std::int64_t i) { return (next[i] - points[i]).squaredNorm(); }) /
                       static_cast<double>(n));
     points = std::move(next);

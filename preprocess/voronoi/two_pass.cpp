@@ -50,10 +50,11 @@ class FirstPass {
 
   /// Seeds that give about this many particles.
   std::int64_t seeds_for(double particles) const {
-    // Vertices a seed; half of them are left at the usual radius of 0.5.
-    const double vertices = body_.domain->dimension == 2 ? 2.2 : 6.5;
-    return std::max<std::int64_t>(1,
-                                  std::llround(particles / (vertices * std::max(0.2, 1 - request_.merge))));
+    // A seed has about 6.5 vertices (2 in the plane); merging at the usual radius of 0.5 leaves half of them
+    // (two thirds).
+    const bool plane = body_.domain->dimension == 2;
+    const double kept = plane ? 2 * (1 - 0.7 * request_.merge) : 6.5 * std::max(0.2, 1 - request_.merge);
+    return std::max<std::int64_t>(1, std::llround(particles / kept));
   }
 
  private:
