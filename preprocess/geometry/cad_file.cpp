@@ -1,6 +1,7 @@
 #include "preprocess/geometry/cad_file.hpp"
 
 #include "core/error.hpp"
+#include "preprocess/geometry/iges_file.hpp"
 
 #include <fmt/format.h>
 
@@ -18,10 +19,13 @@ namespace tessera::preprocess {
 namespace {
 
 const std::map<std::string, CadFormat> formats{
-    {".step", CadFormat::step}, {".stp", CadFormat::step}, {".brep", CadFormat::brep},
-    {".geo", CadFormat::geo},   {".msh", CadFormat::msh},  {".stl", CadFormat::stl},
+    {".step", CadFormat::step}, {".stp", CadFormat::step},  {".iges", CadFormat::iges},
+    {".igs", CadFormat::iges},  {".brep", CadFormat::brep}, {".geo", CadFormat::geo},
+    {".msh", CadFormat::msh},   {".stl", CadFormat::stl},   {".obj", CadFormat::obj},
+    {".ply", CadFormat::ply},
 };
-constexpr const char* accepted = "give one of .step, .stp, .brep, .geo, .msh (4.1 or 2.2), .stl";
+constexpr const char* accepted =
+    "give one of .step, .stp, .iges, .igs, .brep, .geo, .msh (4.1 or 2.2), .stl, .obj, .ply";
 
 std::string read_part(const std::filesystem::path& file, std::streamoff from, std::size_t length) {
   std::ifstream in(file, std::ios::binary);
@@ -180,9 +184,14 @@ CadFormat check_cad_file(const std::filesystem::path& file) {
             name, "save it as version 4.1 or 2.2");
     break;
   }
+  case CadFormat::iges:
+    check_iges(read_text(file), name);
+    break;
   case CadFormat::geo:
   case CadFormat::stl:
-    break; // any text is a program to gmsh; STL is read by our own reader
+  case CadFormat::obj:
+  case CadFormat::ply:
+    break; // any text is a program to gmsh; the readers of triangle surfaces find out themselves
   }
   return found->second;
 }

@@ -8,11 +8,16 @@
 
 namespace tessera::preprocess {
 
-enum class CadFormat { step, brep, geo, msh, stl };
+enum class CadFormat { step, iges, brep, geo, msh, stl, obj, ply };
+
+/// STL, OBJ, PLY.
+constexpr bool is_triangle_surface(CadFormat format) {
+  return format == CadFormat::stl || format == CadFormat::obj || format == CadFormat::ply;
+}
 
 /// Format by the extension, checked against the first bytes of the file: gmsh takes what it does not
 /// recognise for a .geo program. Throws InputError: missing, a folder, empty, unreadable, unknown extension,
-/// not what it is called, cut off (STEP), a version of .msh other than 4.1 and 2.2.
+/// not what it is called, cut off (STEP, IGES), a version of .msh other than 4.1 and 2.2.
 CadFormat check_cad_file(const std::filesystem::path& file);
 
 /// The whole file. Throws InputError when it cannot be read.

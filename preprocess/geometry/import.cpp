@@ -6,6 +6,7 @@
 #include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/domain_stream.hpp"
 #include "preprocess/geometry/geo_script.hpp"
+#include "preprocess/geometry/iges_file.hpp"
 #include "preprocess/geometry/importer/request.hpp"
 #include "preprocess/geometry/shapes.hpp"
 
@@ -111,17 +112,22 @@ void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path
       "heal the part in a CAD program and export it again");
 }
 
-/// OpenCASCADE's name for the unit a STEP file is read in: its own, so that the kernel's absolute tolerances
-/// see the part at the size it was drawn; the case's where the file declares none we know.
-std::string step_unit(const GeometrySource& source, Progress& progress) {
-  const std::string declared = step_length_unit(read_text(source.file));
-  if (declared.empty() || declared == "ft")
+/// The unit the numbers of a file are in once gmsh has read it. STEP comes in its own, so that the kernel's
+/// absolute tolerances see the part at the size it was drawn (in the case's where the file declares none we
+/// know); IGES always in mm (gmsh 4.8 cannot have it otherwise); all others are plain numbers.
+std::string unit_as_read(const GeometrySource& source, CadFormat format, Progress& progress) {
+  if (format != CadFormat::step && format != CadFormat::iges)
     return source.unit;
-  if (declared != source.unit)
-    progress.note(
-        fmt::format("{} is written in {}, not in {}: STEP files carry their own unit, and it counts",
-                    source.file.filename().string(), declared, source.unit));
-  return declared;
+  const std::string text = read_text(source.file);
+  const bool step = format == CadFormat::step;
+  const std::string declared = step ? step_length_unit(text) : iges_length_unit(text);
+  if (!declared.empty() && declared != source.unit)
+    progress.note(fmt::format("{} is written in {}, not in {}: {} files carry their own unit, and it counts",
+                              source.file.filename().string(), declared, source.unit,
+                              step ? "STEP" : "IGES"));
+  if (!step)
+    return "mm";
+  return declared.empty() || declared == "ft" ? source.unit : declared;
 }
 
 std::string occ_name(const std::string& unit) {
@@ -206,15 +212,14 @@ importer::Request file_request(const GeometrySource& source, const fs::path& fol
   const CadFormat format = check_cad_file(source.file);
   if (format == CadFormat::geo)
     check_script(source);
-  require(source.dimension == 3 || format != CadFormat::stl,
+  require(source.dimension == 3 || !is_triangle_surface(format),
           "a file of bare surface triangles holds no plane figure", source.file.string(),
-          "give a .geo, .step, .brep or .msh file, or set [geometry] dimension = 3");
+          "give a .geo, .step, .iges, .brep or .msh file, or set [geometry] dimension = 3");
   require(!source.background_sizes || format == CadFormat::geo || format == CadFormat::msh,
           "there are no mesh sizes in files of this kind", source.file.string(),
           "give a .geo file with a Background Field or sizes at its points, or a .msh file");
   importer::Request request;
-  // STEP lengths come in the file's own unit, all others are plain numbers.
-  const std::string unit = format == CadFormat::step ? step_unit(source, progress) : source.unit;
+  const std::string unit = unit_as_read(source, format, progress);
   if (format == CadFormat::step)
     request.cad_unit = occ_name(unit);
   request.metres = metres_per_unit(unit);

@@ -42,7 +42,8 @@ const std::vector<ShapeKind>& known_shapes();
 /// Either a file or a shape.
 struct GeometrySource {
   std::filesystem::path file; ///< .step/.stp, .iges/.igs, .brep, .geo, .msh (4.1, 2.2), .stl, .obj, .ply
-  std::string unit; ///< what one unit of the file is: "m", "cm", "mm", "um", "in"; STEP converts to it
+  std::string unit; ///< what one unit of the file is: "m", "cm", "mm", "um", "in"; STEP and IGES say
+                    ///< so themselves, and what they say counts (with a note where it differs)
   std::optional<ShapeSpec> shape{}; ///< instead of `file` and `unit`
   int dimension = 3;                ///< 2: the plane surfaces of the file, in the plane z = const
   bool trust = false;               ///< a .geo file may run programs; refused unless trusted

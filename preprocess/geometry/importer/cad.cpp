@@ -75,7 +75,8 @@ Domain import_cad(const Request& request) {
                                                  : diagonal / 10;
   const Tessellation surface = tessellate(kernel_measure(3, solid), size, file_sizes, request,
                                           [&] { return volume_inside(surface_triangles(), request.name); });
-  fill_volume(request.background_sizes ? surface.sizes : Sizes{.largest = size}, file_sizes, request.name);
+  fill_volume(request.background_sizes ? surface.sizes : Sizes{.largest = size, .extend = false}, file_sizes,
+              request.name);
   if (const std::string complaint = first_complaint(); !complaint.empty())
     throw InputError(fmt::format("the volume cannot be meshed: {}", complaint), request.name,
                      "heal the solid in the CAD program");

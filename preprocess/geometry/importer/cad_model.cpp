@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/importer/gmsh_session.hpp"
+#include "preprocess/geometry/importer/sew.hpp"
 #include "preprocess/geometry/importer/shapes.hpp"
 
 #include <gmsh.h>
@@ -44,6 +45,8 @@ void open_cad(const Request& request) {
   if (!request.cad_unit.empty())
     gmsh::option::setString("Geometry.OCCTargetUnit", request.cad_unit);
   open_file(request.file, request.name);
+  if (request.dimension == 3 && preprocess::check_cad_file(request.file) != preprocess::CadFormat::geo)
+    sew_surfaces(request);
 }
 
 double diagonal_of(int dimension, const std::vector<int>& tags, const std::string& name) {

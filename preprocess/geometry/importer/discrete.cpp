@@ -145,8 +145,9 @@ Domain import_stl(const Request& request) {
   gmsh::model::geo::addVolume(loops);
   gmsh::model::geo::synchronize();
   first_complaint();
-  fill_volume({.largest = request.mesh_size > 0 ? request.mesh_size : (high - low).norm() / 10}, {},
-              request.name);
+  fill_volume(
+      {.largest = request.mesh_size > 0 ? request.mesh_size : (high - low).norm() / 10, .extend = false}, {},
+      request.name);
   if (const std::string complaint = first_complaint(); !complaint.empty())
     throw InputError(fmt::format("the volume inside the surface cannot be meshed: {}", complaint),
                      request.name, "repair the surface: it may intersect itself");

@@ -89,7 +89,7 @@ void set_sizes(const Sizes& sizes, const FileSizes& file) {
                {"Mesh.MeshSizeFactor", sizes.factor},
                {"Mesh.MeshSizeFromPoints", own ? file.from_points : 0},
                {"Mesh.MeshSizeFromCurvature", sizes.segments},
-               {"Mesh.MeshSizeExtendFromBoundary", own ? file.extend : 1},
+               {"Mesh.MeshSizeExtendFromBoundary", own ? file.extend : (sizes.extend ? 1 : 0)},
                {"Mesh.ElementOrder", 1},
                {"Mesh.RecombineAll", 0},
                {"Mesh.SubdivisionAlgorithm", 0},
@@ -105,8 +105,6 @@ void set_sizes(const Sizes& sizes, const FileSizes& file) {
 
 void fill_volume(const Sizes& sizes, const FileSizes& file, const std::string& name) {
   set_sizes(sizes, file);
-  if (!sizes.from_file)
-    set_options({{"Mesh.MeshSizeExtendFromBoundary", 0}});
   // Without sizes inside, the constrained Delaunay tetrahedra of the surface's own vertices (3): two to three
   // times slower than HXT, but HXT's result depends on where the system happens to put its memory, and has
   // flat tetrahedra. With sizes, points are added to it (1), a sixth of the tetrahedra allowed at the most.

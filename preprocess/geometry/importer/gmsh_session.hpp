@@ -29,6 +29,7 @@ struct Sizes {
   double largest;
   double smallest = 0;    ///< not even the tip of a cone, which has no radius, goes below
   double segments = 0;    ///< edges a full turn on curved entities; 0: curvature plays no part
+  bool extend = true;     ///< edges inside as long as those of the boundary nearby
   double factor = 1;      ///< on all sizes, in the end
   bool from_file = false; ///< sizes of the file's points and background field count
 };

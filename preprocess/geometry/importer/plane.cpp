@@ -33,6 +33,20 @@ double area_of(const PlaneFigure& figure) {
   return area;
 }
 
+/// Refuses surfaces that are clearly in no plane z = const before anything is joined or meshed.
+void check_flat(const Request& request) {
+  constexpr double padding = 1e-6; // OpenCASCADE widens its boxes by its tolerance
+  const auto surfaces = tags_of(2);
+  for (const int surface : surfaces) {
+    Vec3 low, high;
+    gmsh::model::getBoundingBox(2, surface, low[0], low[1], low[2], high[0], high[1], high[2]);
+    for (double* z : {&low[2], &high[2]})
+      *z = std::round(*z / padding) * padding + 0.0; // a zero without sign
+    require(high[2] - low[2] <= flat * (high - low).norm() + padding,
+            not_plane(surface, surfaces.size(), low[2], high[2]), request.name, plane_remedy);
+  }
+}
+
 /// Surfaces of the body that is meant: those that hang together, glued first where they only touch.
 std::vector<int> choose_figure(const Request& request) {
   const std::size_t solids = tags_of(3).size();
@@ -42,6 +56,7 @@ std::vector<int> choose_figure(const Request& request) {
   require(!tags_of(2).empty(),
           fmt::format("there is no plane surface in the file, only {} curves", tags_of(1).size()),
           request.name, "make a surface of them");
+  check_flat(request);
   auto figures = connected_surfaces();
   if (figures.size() > 1) {
     glue_surfaces();

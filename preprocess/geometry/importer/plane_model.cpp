@@ -18,28 +18,29 @@ using preprocess::Domain;
 using preprocess::Edge;
 
 constexpr int line_type = 1, triangle_type = 2;
-constexpr double flat = 1e-6; // of the diagonal: what a CAD program calls plane
 
 /// Throws unless all heights agree; says which surface leaves the plane.
 void check_plane(const std::map<int, std::array<double, 2>>& heights, double diagonal,
                  const Request& request) {
   const auto [low, high] = heights.begin()->second;
   for (const auto& [surface, range] : heights) {
-    const std::string remedy = "plane bodies are drawn in a plane z = const";
-    require(range[1] - range[0] <= flat * diagonal,
-            fmt::format(
-                "surface {} of {} does not lie in a plane z = const: it reaches from z = {:.6g} to {:.6g}",
-                surface, heights.size(), range[0], range[1]),
-            request.name, remedy);
+    require(range[1] - range[0] <= flat * diagonal, not_plane(surface, heights.size(), range[0], range[1]),
+            request.name, plane_remedy);
     require(range[1] - low <= flat * diagonal && high - range[0] <= flat * diagonal,
             fmt::format("the plane surfaces lie in different planes: surface {} in z = {:.6g}, surface {} in "
                         "z = {:.6g}",
                         heights.begin()->first, low, surface, range[0]),
-            request.name, remedy);
+            request.name, plane_remedy);
   }
 }
 
 } // namespace
+
+std::string not_plane(int surface, std::size_t count, double low, double high) {
+  return fmt::format(
+      "surface {} of {} does not lie in a plane z = const: it reaches from z = {:.6g} to {:.6g}", surface,
+      count, low, high);
+}
 
 TaggedFigure read_triangles(const std::vector<int>& surfaces, const Request& request) {
   TaggedFigure tagged;

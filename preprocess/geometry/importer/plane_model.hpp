@@ -4,6 +4,7 @@
 #include "preprocess/geometry/importer/request.hpp"
 #include "preprocess/geometry/slab.hpp"
 
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct TaggedFigure {
   std::vector<int> curve_tags; ///< gmsh tag of each of figure.curves
   double z = 0;                ///< of its plane
 };
+
+constexpr double flat = 1e-6; ///< of the diagonal: what a CAD program calls plane
+constexpr const char* plane_remedy = "plane bodies are drawn in a plane z = const";
+std::string not_plane(int surface, std::size_t count, double low, double high);
 
 /// Triangles of these surfaces, all of the model's when empty. Throws InputError when they do not lie in one
 /// plane z = const.

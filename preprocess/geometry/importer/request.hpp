@@ -16,7 +16,7 @@ struct Request {
   std::string name;        ///< what to call it in messages
   std::string output;      ///< file for the Domain
   double metres = 1;       ///< metres in one unit of the numbers
-  std::string cad_unit;    ///< unit to have a STEP or IGES file's lengths in, as OpenCASCADE calls it
+  std::string cad_unit;    ///< unit to have a STEP file's lengths in, as OpenCASCADE calls it
   double tolerance = 1e-3; ///< see GeometrySource, as all that follow
   double mesh_size = 0;    ///< in the units of the numbers; 0 for a tenth of the diagonal
   int dimension = 3;

@@ -31,6 +31,7 @@ Tessellation tessellate(std::optional<double> exact, double size, const FileSize
       sizes = {.largest = size, .factor = finer, .from_file = true};
     else
       sizes.largest *= finer;
+    sizes.extend = request.dimension == 3; // a plane figure may be coarse inside
     gmsh::model::mesh::clear();
     set_sizes(sizes, file);
     gmsh::model::mesh::generate(2);

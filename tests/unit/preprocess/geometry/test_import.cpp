@@ -216,7 +216,7 @@ TEST_F(Import, files_that_are_not_there_or_not_files) {
   fs::create_directory(folder() / "part.step");
   EXPECT_SAYS(complaint(folder() / "part.step"), "folder");
   EXPECT_SAYS(complaint(write("empty.step", "")), "empty");
-  EXPECT_SAYS(complaint(write("part.iges", "x")), ".step, .stp, .brep");
+  EXPECT_SAYS(complaint(write("part.igess", "x")), ".step, .stp, .iges");
   EXPECT_SAYS(complaint(write("part", "x")), "no extension");
   EXPECT_SAYS(complaint(write("poem.step", "Wer reitet so spaet")), "not a STEP file");
   EXPECT_SAYS(complaint(write("poem.brep", "Wer reitet so spaet")), "not an OpenCASCADE");
