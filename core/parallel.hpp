@@ -43,12 +43,13 @@ void for_each(std::int64_t n, F&& f) {
     std::rethrow_exception(failure);
 }
 
-/// As for_each, for items of very uneven cost: small blocks handed out as threads become free.
-template <class F>
+/// As for_each, for items of very uneven cost: small blocks (of `together` items) handed out as threads
+/// become free.
+template <int together = 16, class F>
 void for_each_uneven(std::int64_t n, F&& f) {
   std::exception_ptr failure;
   std::int64_t failed = n;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(threads()) if (n > 1)
+#pragma omp parallel for schedule(dynamic, together) num_threads(threads()) if (n > together)
   for (std::int64_t i = 0; i < n; ++i) {
     try {
       f(i);
@@ -62,6 +63,12 @@ void for_each_uneven(std::int64_t n, F&& f) {
   }
   if (failure)
     std::rethrow_exception(failure);
+}
+
+/// As for_each, for few items of much work each, handed out one by one.
+template <class F>
+void for_each_task(std::int64_t n, F&& f) {
+  for_each_uneven<1>(n, f);
 }
 
 /// Combines f(0) ... f(n-1) by `combine` in fixed blocks of 1024 from `first`: same bits on any thread count.

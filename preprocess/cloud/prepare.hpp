@@ -8,6 +8,7 @@
 #include "preprocess/geometry/domain.hpp"
 #include "preprocess/seeding/lattice.hpp"
 #include "preprocess/seeding/size_field.hpp"
+#include "preprocess/voronoi/backend.hpp"
 
 #include <cstdint>
 #include <string>
@@ -37,8 +38,6 @@ struct SetSelector {
 
 enum class Arrangement { lattice, voronoi, poisson };
 enum class Subvolumes { voronoi, uniform };
-/// Who cuts the cells inside the body: this project's clipper on CGAL's neighbours, or Voro++.
-enum class Backend { clipper, voro };
 
 struct ParticleRequest {
   Arrangement arrangement = Arrangement::lattice;

@@ -4,34 +4,38 @@
 
 namespace tessera::preprocess {
 
-void ConvexCell::add_face(std::initializer_list<std::int32_t> loop, std::int32_t label) {
-  faces_.push_back({static_cast<std::int32_t>(loops_.size()), static_cast<std::int32_t>(loop.size()), label});
-  loops_.insert(loops_.end(), loop);
-}
-
-void ConvexCell::set_box(const Vec3& lower, const Vec3& upper) {
+void ConvexCell::clear() {
   vertices_.clear();
   loops_.clear();
   faces_.clear();
+}
+
+void ConvexCell::add_face(std::span<const std::int32_t> loop, std::int32_t label) {
+  faces_.push_back({static_cast<std::int32_t>(loops_.size()), static_cast<std::int32_t>(loop.size()), label});
+  loops_.insert(loops_.end(), loop.begin(), loop.end());
+}
+
+void ConvexCell::set_box(const Vec3& lower, const Vec3& upper) {
+  clear();
   for (int corner = 0; corner < 8; ++corner)
     vertices_.emplace_back(corner & 1 ? upper.x() : lower.x(), corner & 2 ? upper.y() : lower.y(),
                            corner & 4 ? upper.z() : lower.z());
-  add_face({0, 4, 6, 2}, -1);
-  add_face({1, 3, 7, 5}, -2);
-  add_face({0, 1, 5, 4}, -3);
-  add_face({2, 6, 7, 3}, -4);
-  add_face({0, 2, 3, 1}, lower_lid);
-  add_face({4, 5, 7, 6}, upper_lid);
+  add_face(std::array{0, 4, 6, 2}, -1);
+  add_face(std::array{1, 3, 7, 5}, -2);
+  add_face(std::array{0, 1, 5, 4}, -3);
+  add_face(std::array{2, 6, 7, 3}, -4);
+  add_face(std::array{0, 2, 3, 1}, lower_lid);
+  add_face(std::array{4, 5, 7, 6}, upper_lid);
 }
 
 void ConvexCell::set_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   vertices_.assign({a, b, c, d});
   loops_.clear();
   faces_.clear();
-  add_face({1, 2, 3}, -1);
-  add_face({0, 3, 2}, -2);
-  add_face({0, 1, 3}, -3);
-  add_face({0, 2, 1}, -4);
+  add_face(std::array{1, 2, 3}, -1);
+  add_face(std::array{0, 3, 2}, -2);
+  add_face(std::array{0, 1, 3}, -3);
+  add_face(std::array{0, 2, 1}, -4);
 }
 
 bool ConvexCell::clip(const Vec3& normal, const Vec3& point, std::int32_t label) {
@@ -47,9 +51,7 @@ bool ConvexCell::clip(const Vec3& normal, const Vec3& point, std::int32_t label)
   if (!any_lost)
     return true;
   if (!any_below) {
-    vertices_.clear();
-    loops_.clear();
-    faces_.clear();
+    clear();
     return false;
   }
 

@@ -37,6 +37,12 @@ class ConvexCell {
   /// Tetrahedron of positive volume; the face opposite to corner k carries the label -1-k.
   void set_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+  /// Any closed polyhedron, built up: begin with clear(), then its vertices, then its faces, loops
+  /// counter-clockwise seen from outside.
+  void clear();
+  void add_vertex(const Vec3& x) { vertices_.push_back(x); }
+  void add_face(std::span<const std::int32_t> loop, std::int32_t label);
+
   /// Keeps the part where normal.(x - point) <= 0; the new face carries `label`. False when nothing but
   /// points of the plane itself would be left: the cell is empty then.
   bool clip(const Vec3& normal, const Vec3& point, std::int32_t label);
@@ -65,7 +71,6 @@ class ConvexCell {
   void corners(std::vector<Corner>& out) const;
 
  private:
-  void add_face(std::initializer_list<std::int32_t> loop, std::int32_t label);
   void close_caps(std::int32_t first_new, std::int32_t label);
 
   std::vector<Vec3> vertices_;

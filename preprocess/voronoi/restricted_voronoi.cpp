@@ -67,8 +67,8 @@ class Polygon {
 } // namespace
 
 RestrictedVoronoi::RestrictedVoronoi(const TetBody& body, const std::vector<Vec3>& seeds,
-                                     const DelaunayGraph& graph)
-    : body_(&body), seeds_(&seeds), graph_(&graph) {
+                                     const DelaunayGraph& graph, Backend backend)
+    : body_(&body), seeds_(&seeds), graph_(&graph), backend_(backend) {
   find_boundary_cells();
 }
 
@@ -98,7 +98,7 @@ void RestrictedVoronoi::find_boundary_cells() {
   constexpr std::int64_t block = 64;
   const std::int64_t blocks = (count + block - 1) / block;
   std::vector<std::vector<std::pair<std::int32_t, std::int32_t>>> met(blocks); // (cell, facet)
-  for_each_uneven(blocks, [&](std::int64_t b) {
+  for_each_task(blocks, [&](std::int64_t b) {
     Polygon polygon;
     std::vector<std::int32_t> reached;
     std::int32_t hint = 0;
@@ -164,6 +164,30 @@ void RestrictedVoronoi::begin_round(Workspace& work) const {
   }
 }
 
+/// The tetrahedra that share a vertex with one of the facets and hang together around it.
+std::vector<std::int32_t> RestrictedVoronoi::tets_around(std::span<const std::int32_t> facets) const {
+  const Domain& domain = *body_->domain;
+  std::vector<std::int32_t> around;
+  const auto known = [&](std::int32_t t) {
+    return std::find(around.begin(), around.end(), t) != around.end();
+  };
+  for (const std::int32_t f : facets) {
+    const auto& corners = domain.facets[f].vertices;
+    const auto touches = [&](std::int32_t t) {
+      return std::find_first_of(domain.tets[t].begin(), domain.tets[t].end(), corners.begin(),
+                                corners.end()) != domain.tets[t].end();
+    };
+    std::size_t next = around.size();
+    if (!known(domain.facets[f].tet))
+      around.push_back(domain.facets[f].tet);
+    for (; next < around.size(); ++next)
+      for (const std::int32_t t : body_->across[around[next]])
+        if (t >= 0 && touches(t) && !known(t))
+          around.push_back(t);
+  }
+  return around;
+}
+
 bool RestrictedVoronoi::cut_by_bisectors(std::int64_t i, ConvexCell& cell) const {
   const Vec3& seed = (*seeds_)[i];
   double reach = cell.squared_radius(seed);
@@ -181,7 +205,7 @@ bool RestrictedVoronoi::cut_by_bisectors(std::int64_t i, ConvexCell& cell) const
   return true;
 }
 
-void RestrictedVoronoi::cut_whole(std::int64_t i, ConvexCell& cell) const {
+void RestrictedVoronoi::cut_whole(std::int64_t i, Workspace& work) const {
   // A box around the seed is cut; where some of it is left the box was too small.
   const Vec3& seed = (*seeds_)[i];
   const auto neighbours = graph_->of(i);
@@ -194,19 +218,26 @@ void RestrictedVoronoi::cut_whole(std::int64_t i, ConvexCell& cell) const {
   };
   for (;; half *= 4) {
     const Vec3 size(half, half, plane ? 0.5 : half);
-    cell.set_box(seed - size, seed + size);
-    cut_by_bisectors(i, cell);
-    const auto faces = cell.faces();
+    if (backend_ == Backend::voro) {
+      work.voro.cut_box(seed - size, seed + size, *seeds_, i, neighbours, work.cell);
+    } else {
+      work.cell.set_box(seed - size, seed + size);
+      cut_by_bisectors(i, work.cell);
+    }
+    const auto faces = work.cell.faces();
     if (half >= whole || std::all_of(faces.begin(), faces.end(), final))
       return;
   }
 }
 
-bool RestrictedVoronoi::cut_tetrahedron(std::int64_t i, std::int32_t t, ConvexCell& cell) const {
+bool RestrictedVoronoi::cut_tetrahedron(std::int64_t i, std::int32_t t, Workspace& work) const {
   const auto& tet = body_->domain->tets[t];
   const auto& points = body_->points;
-  cell.set_tetrahedron(points[tet[0]], points[tet[1]], points[tet[2]], points[tet[3]]);
-  return cut_by_bisectors(i, cell);
+  if (backend_ == Backend::voro)
+    return work.voro.cut_tetrahedron({points[tet[0]], points[tet[1]], points[tet[2]], points[tet[3]]},
+                                     *seeds_, i, graph_->of(i), work.cell);
+  work.cell.set_tetrahedron(points[tet[0]], points[tet[1]], points[tet[2]], points[tet[3]]);
+  return cut_by_bisectors(i, work.cell);
 }
 
 } // namespace tessera::preprocess

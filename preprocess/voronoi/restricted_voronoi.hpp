@@ -8,9 +8,11 @@
 /// to lid.
 #pragma once
 
+#include "preprocess/voronoi/backend.hpp"
 #include "preprocess/voronoi/convex_cell.hpp"
 #include "preprocess/voronoi/delaunay.hpp"
 #include "preprocess/voronoi/tet_body.hpp"
+#include "preprocess/voronoi/voro.hpp"
 
 #include <cstdint>
 #include <span>
@@ -30,8 +32,9 @@ struct CellPiece {
 class RestrictedVoronoi {
  public:
   /// Everything in the body's scaled coordinates; all three outlive this. Finds which cells meet the
-  /// boundary.
-  RestrictedVoronoi(const TetBody& body, const std::vector<Vec3>& seeds, const DelaunayGraph& graph);
+  /// boundary. The graph is delaunay_graph's or voro_neighbours'; with Backend::voro it is Voro++ that cuts.
+  RestrictedVoronoi(const TetBody& body, const std::vector<Vec3>& seeds, const DelaunayGraph& graph,
+                    Backend backend = Backend::clipper);
 
   std::int64_t size() const { return static_cast<std::int64_t>(seeds_->size()); }
   const TetBody& body() const { return *body_; }
@@ -57,6 +60,7 @@ class RestrictedVoronoi {
   /// Room for one thread.
   struct Workspace {
     ConvexCell cell;
+    VoroCell voro;
     std::vector<std::uint32_t> met; ///< by tetrahedron: the last round that met it
     std::uint32_t round = 0;
     std::vector<std::int32_t> front;
@@ -68,22 +72,20 @@ class RestrictedVoronoi {
   void visit(std::int64_t i, Visit&& visit) const {
     Workspace& work = workspace();
     if (!meets_boundary(i)) {
-      cut_whole(i, work.cell);
+      cut_whole(i, work);
       visit(CellPiece{work.cell, -1, 0});
       return;
     }
-    begin_round(work);
     std::int32_t component = 0;
-    for (const std::int32_t facet : facets_of(i)) {
-      const std::int32_t start = body_->domain->facets[facet].tet;
+    const auto flood = [&](std::int32_t start) {
       if (!meet(work, start))
-        continue;
+        return;
       work.front.assign(1, start);
       bool any = false;
       while (!work.front.empty()) {
         const std::int32_t t = work.front.back();
         work.front.pop_back();
-        if (!cut_tetrahedron(i, t, work.cell))
+        if (!cut_tetrahedron(i, t, work))
           continue;
         any = true;
         for (const ConvexCell::Face& face : work.cell.faces()) {
@@ -95,9 +97,18 @@ class RestrictedVoronoi {
         }
         visit(CellPiece{work.cell, t, component});
       }
-      if (any)
-        ++component;
-    }
+      component += any;
+    };
+    begin_round(work);
+    for (const std::int32_t facet : facets_of(i))
+      flood(body_->domain->facets[facet].tet);
+    if (component > 0)
+      return;
+    // The cell touches the boundary in points or along lines only: it lies inside (or outside) as a whole.
+    const std::vector<std::int32_t> around = tets_around(facets_of(i));
+    begin_round(work);
+    for (const std::int32_t t : around)
+      flood(t);
   }
 
  private:
@@ -105,20 +116,22 @@ class RestrictedVoronoi {
     return {facets_.data() + rows_[i], static_cast<std::size_t>(rows_[i + 1] - rows_[i])};
   }
   void begin_round(Workspace& work) const;
+  std::vector<std::int32_t> tets_around(std::span<const std::int32_t> facets) const;
   static bool meet(Workspace& work, std::int32_t t) {
     if (work.met[t] == work.round)
       return false;
     work.met[t] = work.round;
     return true;
   }
-  void cut_whole(std::int64_t i, ConvexCell& cell) const;
-  bool cut_tetrahedron(std::int64_t i, std::int32_t t, ConvexCell& cell) const;
+  void cut_whole(std::int64_t i, Workspace& work) const;
+  bool cut_tetrahedron(std::int64_t i, std::int32_t t, Workspace& work) const;
   bool cut_by_bisectors(std::int64_t i, ConvexCell& cell) const;
   void find_boundary_cells();
 
   const TetBody* body_;
   const std::vector<Vec3>* seeds_;
   const DelaunayGraph* graph_;
+  Backend backend_;
   std::vector<std::int64_t> rows_;   ///< boundary facets each cell meets
   std::vector<std::int32_t> facets_; ///< ascending in each row
 };

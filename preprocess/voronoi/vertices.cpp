@@ -181,7 +181,7 @@ PlacedPoints cell_vertices(const RestrictedVoronoi& voronoi) {
   constexpr std::int64_t block = 64;
   const std::int64_t blocks = (voronoi.size() + block - 1) / block;
   std::vector<std::vector<Found>> found(blocks);
-  for_each_uneven(blocks, [&](std::int64_t b) {
+  for_each_task(blocks, [&](std::int64_t b) {
     std::vector<Found> of_cell;
     for (std::int64_t i = b * block; i < std::min(voronoi.size(), (b + 1) * block); ++i) {
       of_cell.clear();

@@ -114,6 +114,27 @@ TEST(RestrictedVoronoi, OneAndTwoSeedsTessellateTheBody) {
   }
 }
 
+TEST(RestrictedVoronoi, CellsThatTouchTheBoundaryInALineAreKept) {
+  // A cell of the square lattice turned by 45 degrees whose corner lies on the re-entrant edge x = y = 1.
+  const Domain ell = test::l_domain(2);
+  std::vector<Vec3> X;
+  for (int j = -20; j <= 20; ++j)
+    for (int i = -20; i <= 20; ++i) {
+      const Vec3 x(1 + 0.25 * (i - j), 1 - 0.25 * (i + j + 1), 0.5);
+      if (x.x() > 0 && x.y() > 0 && x.x() < 2 && x.y() < 2 && (x.x() < 1 || x.y() < 1))
+        X.push_back(x);
+    }
+  ASSERT_GT(X.size(), 10u);
+  for (const Backend backend : {Backend::clipper, Backend::voro}) {
+    const Tessellation t(ell, X);
+    const CellMeasures measures = measure_cells(RestrictedVoronoi(t.body, t.seeds, t.graph, backend));
+    double sum = 0;
+    for (const double v : measures.volume)
+      sum += t.volume(v);
+    EXPECT_NEAR(sum, 3, 1e-12);
+  }
+}
+
 TEST(RestrictedVoronoi, MaterialAcrossASlotGoesToItsOwnSide) {
   const Domain domain = slotted_domain(0.02);
   const Tessellation t(domain, random_points(domain, 400));
