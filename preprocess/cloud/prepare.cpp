@@ -9,6 +9,7 @@
 #include "preprocess/cloud/renumber.hpp"
 #include "preprocess/cloud/sets.hpp"
 #include "preprocess/cloud/visibility.hpp"
+#include "preprocess/voronoi/voro.hpp"
 
 #include <fmt/format.h>
 
@@ -125,10 +126,11 @@ Tessellated tessellate(const TetBody& body, const ParticleRequest& request, Arra
   progress.begin("Voronoi cells", most_rounds);
   for (int round = 1;; ++round) {
     particles.keep(hilbert_order(particles.scaled));
-    result.graph = delaunay_graph(particles.graph_from);
+    result.graph = request.backend == Backend::voro ? voro_neighbours(body, particles.scaled)
+                                                    : delaunay_graph(particles.graph_from);
     watch.lap("delaunay");
     stop_if_interrupted("Voronoi cells");
-    const RestrictedVoronoi voronoi(body, particles.scaled, result.graph);
+    const RestrictedVoronoi voronoi(body, particles.scaled, result.graph, request.backend);
     result.measures = measure_cells(voronoi);
     watch.lap("cells");
     progress.advance(round);
