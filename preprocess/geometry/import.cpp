@@ -7,6 +7,7 @@
 #include "preprocess/geometry/domain_stream.hpp"
 #include "preprocess/geometry/geo_script.hpp"
 #include "preprocess/geometry/iges_file.hpp"
+#include "preprocess/geometry/importer/note.hpp"
 #include "preprocess/geometry/importer/request.hpp"
 #include "preprocess/geometry/shapes.hpp"
 
@@ -252,6 +253,9 @@ Domain import_geometry(const GeometrySource& source, Progress& progress) {
   require(source.solid >= 0, fmt::format("solid is {}", source.solid), "[geometry] solid",
           "count from 1, or give 0 where there is only one");
 
+  require(source.close_holes >= 0, fmt::format("close_holes is {}", source.close_holes),
+          "[geometry] close_holes", "give the largest number of edges of a hole to close, or 0 for none");
+
   const TemporaryFolder folder;
   importer::Request request =
       source.shape ? shape_request(source) : file_request(source, folder.path(), progress);
@@ -280,6 +284,10 @@ Domain import_geometry(const GeometrySource& source, Progress& progress) {
         name, "try again; if it stays, heal the part in a CAD program");
   }
   domain.validate(name);
+  std::istringstream lines(end.output);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(importer::note_prefix))
+      progress.note(line.substr(importer::note_prefix.size()));
   note_domain(domain, source, progress);
   return domain;
 }

@@ -139,15 +139,4 @@ std::vector<double> shell_volumes(const std::vector<Vec3>& vertices, std::span<c
   return volumes;
 }
 
-int winding(const std::vector<Vec3>& vertices, std::span<const Triangle> triangles, const Vec3& point) {
-  // Solid angle of each triangle: van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125.
-  double angle = 0;
-  for (const auto& t : triangles) {
-    const Vec3 a = vertices[t[0]] - point, b = vertices[t[1]] - point, c = vertices[t[2]] - point;
-    const double A = a.norm(), B = b.norm(), C = c.norm();
-    angle += 2 * std::atan2(a.dot(b.cross(c)), A * B * C + a.dot(b) * C + b.dot(c) * A + c.dot(a) * B);
-  }
-  return static_cast<int>(std::lround(angle / (4 * std::numbers::pi)));
-}
-
 } // namespace tessera::preprocess

@@ -33,7 +33,4 @@ bool orient(std::span<Triangle> triangles);
 std::vector<double> shell_volumes(const std::vector<Vec3>& vertices, std::span<const Triangle> triangles,
                                   std::span<const std::int32_t> shells);
 
-/// Times a closed, oriented surface winds around a point not on it (1 inside, 0 outside).
-int winding(const std::vector<Vec3>& vertices, std::span<const Triangle> triangles, const Vec3& point);
-
 } // namespace tessera::preprocess

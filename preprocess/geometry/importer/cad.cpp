@@ -81,7 +81,7 @@ Domain import_cad(const Request& request) {
     throw InputError(fmt::format("the volume cannot be meshed: {}", complaint), request.name,
                      "heal the solid in the CAD program");
 
-  TaggedDomain tagged = read_tetrahedra({solid}, request.name, true);
+  TaggedDomain tagged = read_tetrahedra({solid}, corners_of(solid), request.name, true);
   Domain& domain = tagged.domain;
   check_filled(domain, surface.mesh_measure, request.name);
   if (request.shape)

@@ -1,61 +1,97 @@
 #include "core/error.hpp"
-#include "preprocess/geometry/cad_file.hpp"
 #include "preprocess/geometry/features.hpp"
+#include "preprocess/geometry/importer/bodies.hpp"
 #include "preprocess/geometry/importer/gmsh_model.hpp"
 #include "preprocess/geometry/importer/gmsh_session.hpp"
 #include "preprocess/geometry/importer/import_file.hpp"
-#include "preprocess/geometry/stl.hpp"
 
 #include <fmt/format.h>
 #include <gmsh.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <numeric>
 
 namespace tessera::importer {
 namespace {
 
 using preprocess::Domain;
 
-constexpr double crease =
-    40; // degrees: bodies that come without a CAD's surfaces are cut along sharper edges
+/// Node tags of tetrahedra, four each.
+using Corners = std::vector<std::size_t>;
 
-/// Pieces of the body that share no face; facets of one piece may touch another's only at edges or corners.
-std::size_t pieces(const Domain& domain) {
-  std::vector<std::int32_t> parent(domain.tets.size());
-  for (std::size_t t = 0; t < parent.size(); ++t)
-    parent[t] = static_cast<std::int32_t>(t);
-  const auto root = [&](std::int32_t t) {
+/// Pieces of the body that share no face, in the order of their first tetrahedra; they may touch at edges or
+/// corners.
+std::vector<Corners> pieces_of(const Corners& corners) {
+  const std::size_t tets = corners.size() / 4;
+  std::vector<std::size_t> parent(tets);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](std::size_t t) {
     while (parent[t] != t)
       t = parent[t] = parent[parent[t]];
     return t;
   };
-  std::map<preprocess::Triangle, std::int32_t> first;
-  for (std::size_t t = 0; t < domain.tets.size(); ++t)
+  std::map<std::array<std::size_t, 3>, std::size_t> first;
+  for (std::size_t t = 0; t < tets; ++t)
     for (int skip = 0; skip < 4; ++skip) {
-      preprocess::Triangle key;
+      std::array<std::size_t, 3> key;
       for (int v = 0, k = 0; v < 4; ++v)
         if (v != skip)
-          key[k++] = domain.tets[t][v];
+          key[k++] = corners[4 * t + v];
       std::sort(key.begin(), key.end());
-      const auto [it, added] = first.try_emplace(key, static_cast<std::int32_t>(t));
-      if (!added)
-        parent[root(static_cast<std::int32_t>(t))] = root(it->second);
+      const auto [it, added] = first.try_emplace(key, t);
+      if (!added) {
+        const std::size_t a = root(t), b = root(it->second);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
     }
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < parent.size(); ++t)
-    count += parent[t] == static_cast<std::int32_t>(t);
-  return count;
+  std::map<std::size_t, Corners> pieces;
+  for (std::size_t t = 0; t < tets; ++t) {
+    auto& piece = pieces[root(t)];
+    piece.insert(piece.end(), &corners[4 * t], &corners[4 * t] + 4);
+  }
+  std::vector<Corners> found;
+  for (auto& [tet, piece] : pieces)
+    found.push_back(std::move(piece));
+  return found;
 }
 
-/// Volume of a body that is its own reference; one piece only.
-void finish(TaggedDomain& tagged, const std::string& name) {
-  Domain& domain = tagged.domain;
-  domain.measure();
-  domain.cad_volume = domain.volume;
-  const std::size_t count = pieces(domain);
-  require(count == 1, fmt::format("the mesh falls into {} separate bodies", count), name,
-          "give each body its own file");
+struct MeshBody {
+  std::vector<int> volumes;
+  Corners corners;
+};
+
+/// The body that is meant: all of the mesh when it hangs together; else one volume entity, or one piece where
+/// there is but one entity.
+MeshBody choose_mesh_body(const Request& request) {
+  MeshBody all{tags_of(3), {}};
+  std::vector<MeshBody> bodies;
+  for (const int volume : all.volumes) {
+    MeshBody body{{volume}, corners_of(volume)};
+    all.corners.insert(all.corners.end(), body.corners.begin(), body.corners.end());
+    if (!body.corners.empty())
+      bodies.push_back(std::move(body));
+  }
+  const auto pieces = pieces_of(all.corners);
+  if (request.solid == 0 && pieces.size() == 1)
+    return all;
+  if (bodies.size() == 1) {
+    bodies.clear();
+    for (const Corners& piece : pieces)
+      bodies.push_back({all.volumes, piece});
+  }
+  constexpr std::size_t most_described = 8; // no message names more
+  std::vector<Candidate> candidates(bodies.size());
+  for (std::size_t b = 0; b < std::min(bodies.size(), most_described); ++b) {
+    Domain domain = read_tetrahedra(bodies[b].volumes, bodies[b].corners, request.name, false).domain;
+    domain.measure();
+    candidates[b] = {{}, domain.volume, domain.lower, domain.upper};
+  }
+  const MeshBody& chosen = bodies[choose_body(candidates, request, "separate solid")];
+  const std::size_t parts = pieces_of(chosen.corners).size();
+  require(parts == 1, fmt::format("volume {} of the mesh falls into {} pieces", chosen.volumes[0], parts),
+          request.name, "give each piece a volume of its own");
+  return chosen;
 }
 
 void refuse_other_elements(const std::string& name) {
@@ -80,7 +116,8 @@ void refuse_other_elements(const std::string& name) {
 Domain import_mesh(const Request& request) {
   open_file(request.file, request.name);
   refuse_other_elements(request.name);
-  TaggedDomain tagged = read_tetrahedra(tags_of(3), request.name, false);
+  const MeshBody body = choose_mesh_body(request);
+  TaggedDomain tagged = read_tetrahedra(body.volumes, body.corners, request.name, false);
   Domain& domain = tagged.domain;
 
   const auto bare = [](const Domain::Facet& facet) { return facet.surface < 0; };
@@ -98,67 +135,14 @@ Domain import_mesh(const Request& request) {
   } else if (all_bare) {
     tagged.surface_tags.clear();
     preprocess::surfaces_by_angle(domain, crease);
-    preprocess::find_feature_edges(domain, crease);
-  } else {
-    preprocess::find_feature_edges(domain, crease);
   }
+  if (!topology)
+    preprocess::find_feature_edges(domain, crease);
   preprocess::find_corners(domain, {});
   preprocess::chain_curves(domain);
-  read_groups(tagged, tags_of(3));
-  finish(tagged, request.name);
-  return std::move(domain);
-}
-
-Domain import_stl(const Request& request) {
-  auto surface = preprocess::read_stl(preprocess::read_text(request.file), request.name);
-  preprocess::close_and_orient(surface, request.name);
-
-  // Each shell is a discrete surface of its own; the volume lies between them.
-  gmsh::model::add("stl");
-  const auto shells = preprocess::shells_of(surface.triangles);
-  std::vector<std::size_t> nodes;
-  std::vector<double> X;
-  Vec3 low = surface.vertices[0], high = low;
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-    nodes.push_back(v + 1);
-    X.insert(X.end(), surface.vertices[v].data(), surface.vertices[v].data() + 3);
-    low = low.cwiseMin(surface.vertices[v]);
-    high = high.cwiseMax(surface.vertices[v]);
-  }
-  const int count = *std::max_element(shells.begin(), shells.end()) + 1;
-  std::vector<int> loops;
-  for (int shell = 0; shell < count; ++shell) {
-    std::vector<std::size_t> corners;
-    for (std::size_t t = 0; t < shells.size(); ++t)
-      if (shells[t] == shell)
-        for (const std::int32_t v : surface.triangles[t])
-          corners.push_back(static_cast<std::size_t>(v) + 1);
-    gmsh::model::addDiscreteEntity(2, shell + 1);
-    std::set<std::size_t> own(corners.begin(), corners.end());
-    std::vector<double> own_X;
-    for (const std::size_t node : own)
-      own_X.insert(own_X.end(), &X[3 * (node - 1)], &X[3 * (node - 1)] + 3);
-    gmsh::model::mesh::addNodes(2, shell + 1, {own.begin(), own.end()}, own_X);
-    gmsh::model::mesh::addElementsByType(shell + 1, 2, {}, corners);
-    loops.push_back(gmsh::model::geo::addSurfaceLoop({shell + 1}));
-  }
-  gmsh::model::geo::addVolume(loops);
-  gmsh::model::geo::synchronize();
-  first_complaint();
-  fill_volume(
-      {.largest = request.mesh_size > 0 ? request.mesh_size : (high - low).norm() / 10, .extend = false}, {},
-      request.name);
-  if (const std::string complaint = first_complaint(); !complaint.empty())
-    throw InputError(fmt::format("the volume inside the surface cannot be meshed: {}", complaint),
-                     request.name, "repair the surface: it may intersect itself");
-
-  TaggedDomain tagged = read_tetrahedra(tags_of(3), request.name, true);
-  Domain& domain = tagged.domain;
-  preprocess::surfaces_by_angle(domain, crease);
-  preprocess::find_feature_edges(domain, crease);
-  preprocess::find_corners(domain, {});
-  preprocess::chain_curves(domain);
-  finish(tagged, request.name);
+  read_groups(tagged, body.volumes);
+  domain.measure();
+  domain.cad_volume = domain.volume;
   return std::move(domain);
 }
 

@@ -110,7 +110,12 @@ preprocess::Triangles surface_triangles() {
   return surface;
 }
 
-TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::string& name, bool need_surfaces) {
+std::vector<std::size_t> corners_of(int volume) {
+  return elements(tet_type, volume).nodes;
+}
+
+TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::vector<std::size_t>& corners,
+                             const std::string& name, bool need_surfaces) {
   TaggedDomain tagged;
   Domain& domain = tagged.domain;
   std::vector<std::size_t> nodes;
@@ -120,13 +125,7 @@ TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::string&
   for (std::size_t n = 0; n < nodes.size(); ++n)
     place.try_emplace(nodes[n], n);
 
-  std::vector<std::size_t> corners;
-  std::set<std::size_t> used;
-  for (const int tag : volumes) {
-    const auto found = elements(tet_type, tag);
-    corners.insert(corners.end(), found.nodes.begin(), found.nodes.end());
-    used.insert(found.nodes.begin(), found.nodes.end());
-  }
+  const std::set<std::size_t> used(corners.begin(), corners.end());
   for (const auto& [node, n] : place) {
     if (!used.contains(node))
       continue;

@@ -23,11 +23,19 @@ struct TaggedDomain {
   std::map<int, std::int32_t> curve_index; ///< Domain curve of each gmsh curve that is a feature
 };
 
-/// Reads the nodes and tetrahedra of these volumes; where surfaces of the model wall a cavity off, those
-/// inside the cavity are left out (gmsh's constrained Delaunay fills it too). Facets get the surface whose
-/// triangle they are; the surfaces are those that bound the body, in the order of their tags, named face1,
-/// face2... by tag. `need_surfaces`: InputError when a facet has none (else its surface stays -1).
-TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::string& name, bool need_surfaces);
+/// Degrees: bodies that come without a CAD's surfaces are cut along sharper edges.
+constexpr double crease = 40;
+
+/// Node tags of all tetrahedra of a volume, four each.
+std::vector<std::size_t> corners_of(int volume);
+
+/// Reads the nodes and tetrahedra of a body, `corners` of these volumes; where surfaces of the model wall a
+/// cavity off, those inside the cavity are left out (gmsh's constrained Delaunay fills it too). Facets get
+/// the surface whose triangle they are; the surfaces are those that bound the body, in the order of their
+/// tags, named face1, face2... by tag. `need_surfaces`: InputError when a facet has none (else its surface
+/// stays -1).
+TaggedDomain read_tetrahedra(const std::vector<int>& volumes, const std::vector<std::size_t>& corners,
+                             const std::string& name, bool need_surfaces);
 
 /// Throws InputError unless the tetrahedra fill the volume inside their surface to rounding.
 void check_filled(preprocess::Domain& domain, double surface_volume, const std::string& name);

@@ -12,6 +12,6 @@ preprocess::Domain import_cad(const Request& request);        ///< solids: CAD f
 preprocess::Domain import_plane_cad(const Request& request);  ///< plane figures: CAD files and shapes
 preprocess::Domain import_mesh(const Request& request);       ///< .msh with tetrahedra
 preprocess::Domain import_plane_mesh(const Request& request); ///< .msh with triangles
-preprocess::Domain import_stl(const Request& request);        ///< .stl
+preprocess::Domain import_surface(const Request& request);    ///< .stl, .obj, .ply
 
 } // namespace tessera::importer

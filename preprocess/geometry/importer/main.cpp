@@ -31,14 +31,12 @@ preprocess::Domain import(const importer::Request& request) {
   const bool plane = request.dimension == 2;
   if (request.shape)
     return plane ? importer::import_plane_cad(request) : importer::import_cad(request);
-  switch (preprocess::check_cad_file(request.file)) {
-  case preprocess::CadFormat::msh:
+  const auto format = preprocess::check_cad_file(request.file);
+  if (preprocess::is_triangle_surface(format))
+    return importer::import_surface(request);
+  if (format == preprocess::CadFormat::msh)
     return plane ? importer::import_plane_mesh(request) : importer::import_mesh(request);
-  case preprocess::CadFormat::stl:
-    return importer::import_stl(request);
-  default:
-    return plane ? importer::import_plane_cad(request) : importer::import_cad(request);
-  }
+  return plane ? importer::import_plane_cad(request) : importer::import_cad(request);
 }
 
 /// Lengths in metres from here on (but for the thickness of a slab).

@@ -244,6 +244,35 @@ TEST_F(Import, step_with_an_empty_shell_is_refused) {
   EXPECT_NE(complaint(write("hollow.step", text)), "");
 }
 
+TEST_F(Import, one_of_several_solids_is_chosen) {
+  // Two of them touch; the loose surface is no solid.
+  GeometrySource source{.file = occ("three.geo", R"(
+    Box(1) = {0,0,0, 1,1,1}; Box(2) = {1,0,0, 2,1,1}; Cylinder(3) = {9,0,0, 0,0,1, 0.5};
+    BooleanFragments{ Volume{1}; Delete; }{ Volume{2}; Delete; } Rectangle(99) = {0,0,9, 1,1};
+    Physical Volume("left") = {1}; Physical Volume("right") = {2}; Physical Volume("bar") = {3};
+    f() = Surface In BoundingBox{0.9,-0.1,-0.1, 1.1,1.1,1.1}; Physical Surface("joint") = {f()};
+    e() = Surface In BoundingBox{2.9,-0.1,-0.1, 3.1,1.1,1.1}; Physical Surface("end") = {e()};)"),
+                        .unit = "m"};
+  const std::string said = complaint(source);
+  EXPECT_SAYS(said, "there are 3 solids in the file: 1 of volume 1 from (");
+  EXPECT_SAYS(said, "; 3 of volume 0.7854 from (8.5");
+  EXPECT_SAYS(said, "choose one with [geometry] solid = N");
+  const std::vector<std::vector<std::string>> groups{{"joint", "left"}, {"end", "joint", "right"}, {"bar"}};
+  for (const double volume : {1.0, 2.0, pi / 4}) {
+    ++source.solid;
+    const Domain domain = import(source);
+    EXPECT_NEAR(domain.cad_volume, volume, 1e-9);
+    std::vector<std::string> names;
+    for (const auto& group : domain.groups)
+      names.push_back(group.name);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(names, groups.at(static_cast<std::size_t>(source.solid) - 1));
+    EXPECT_EQ(domain.corners.size(), source.solid < 3 ? 8u : 0u);
+  }
+  ++source.solid;
+  EXPECT_SAYS(complaint(source), "solid is 4, but there are 3 solids");
+}
+
 TEST_F(Import, bodies_are_counted) {
   const std::string head = "SetFactory(\"OpenCASCADE\"); ";
   EXPECT_SAYS(complaint(write("two.geo", head + "Box(1) = {0,0,0,1,1,1}; Box(2) = {2,0,0,1,1,1};")),
