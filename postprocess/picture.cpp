@@ -47,8 +47,8 @@ Drawing drawing_of(const Picture& picture, const std::vector<std::vector<io::Sto
   drawing.outline = picture.outline;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const io::StoredFrame& frame = chosen(series[i], picture.frame);
-    drawing.panels.push_back(
-        {fs::absolute(frame.file).string(), i < labels.size() ? labels[i] : "", frame.time, 0, picture.clip});
+    drawing.panels.push_back({fs::absolute(frame.file).string(), i < labels.size() ? labels[i] : "",
+                              frame.time, 0, picture.clip, ""});
   }
   return drawing;
 }
@@ -70,18 +70,6 @@ std::vector<fs::path> draw(const std::vector<Picture>& pictures, const std::vect
     return {};
   }
   return render(job, progress);
-}
-
-std::vector<fs::path> draw_cloud(const fs::path& folder, Progress& progress) {
-  constexpr double no_time = std::numeric_limits<double>::quiet_NaN();
-  const std::string file = fs::absolute(folder / "cloud.vtp").string();
-  Drawing drawing;
-  drawing.file = fs::absolute(folder / "cloud.png").string();
-  drawing.title = "Particles by subvolume";
-  drawing.field = "volume";
-  drawing.view = "iso";
-  drawing.panels = {{file, "whole", no_time, 0, ""}, {file, "near half left out", no_time, 0, "y"}};
-  return render({{drawing}, {}}, progress);
 }
 
 } // namespace tessera::post

@@ -2,8 +2,10 @@
 /// program).
 #pragma once
 
+#include "core/cell_mesh.hpp"
 #include "core/progress.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -31,8 +33,15 @@ std::vector<std::filesystem::path> draw(const std::vector<Picture>& pictures,
                                         const std::vector<std::string>& labels,
                                         const std::filesystem::path& output, Progress& progress);
 
-/// cloud.png: the particles of folder/cloud.vtp coloured by subvolume, the near half left out beside the
-/// whole.
-std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& folder, Progress& progress);
+/// Up to how many particles a cloud's picture shows the Voronoi cells: those of larger ones could not be told
+/// apart, and take long to draw.
+inline constexpr std::int64_t most_cells_drawn = 50'000;
+
+/// cloud.png: the particles of folder/cloud.vtp coloured by subvolume over the mean, beside them the far half
+/// of the body as Voronoi cells; a plane body's cells face on. The cells are `cells` where given (they are
+/// not stored), else those of folder/cells.vtu; without either, and above most_cells_drawn, the cut body
+/// shows its particles. Fails as draw() does: with a note.
+std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& folder, Progress& progress,
+                                              const CellMesh* cells = nullptr);
 
 } // namespace tessera::post

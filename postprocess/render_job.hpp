@@ -22,6 +22,7 @@ struct Panel {
   double time = 0;    ///< s; NaN: not shown
   double spacing = 0; ///< of the particles, m; 0: found from the points
   std::string clip;   ///< "", "x", "y", "z"
+  std::string cells;  ///< .vtu with the Voronoi cells to draw in place of the spheres; may be empty
 };
 
 /// Particles coloured by a field, panels side by side on one colour scale and one length scale.
@@ -33,15 +34,19 @@ struct Drawing {
   double minimum = std::numeric_limits<double>::quiet_NaN(); ///< SI; NaN: over all panels
   double maximum = std::numeric_limits<double>::quiet_NaN();
   bool outline = false;
+  /// Particles before a run: values over their mean, each sphere as large as its distance to others (on a
+  /// lattice half the panel's spacing), and a second line of caption that counts what is seen of a cut body.
+  bool cloud = false;
   std::vector<Panel> panels;
 };
 
-/// One curve, or points where `dots`.
+/// One curve, points where `dots`, or columns standing on zero where `bars` (x evenly spaced).
 struct Curve {
   std::string label;
   std::vector<double> x, y;
   bool dots = false;
   bool dashed = false;
+  bool bars = false;
 };
 
 struct Chart {
@@ -50,10 +55,11 @@ struct Chart {
   std::vector<Curve> curves;
 };
 
-/// Charts above each other in one picture.
+/// Charts above each other in one picture, or beside each other and smaller.
 struct Plot {
   std::string file; ///< PNG to write
   std::vector<Chart> charts;
+  bool beside = false;
 };
 
 struct RenderJob {

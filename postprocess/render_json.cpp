@@ -23,21 +23,17 @@ std::vector<double> numbers(const json& values) {
 }
 
 json of(const Panel& panel) {
-  return {{"file", panel.file},
-          {"label", panel.label},
-          {"time", panel.time},
-          {"spacing", panel.spacing},
-          {"clip", panel.clip}};
+  return {{"file", panel.file},       {"label", panel.label}, {"time", panel.time},
+          {"spacing", panel.spacing}, {"clip", panel.clip},   {"cells", panel.cells}};
 }
 
 json of(const Drawing& drawing) {
   json panels = json::array();
   for (const Panel& panel : drawing.panels)
     panels.push_back(of(panel));
-  return {{"file", drawing.file},       {"title", drawing.title},
-          {"field", drawing.field},     {"view", drawing.view},
-          {"minimum", drawing.minimum}, {"maximum", drawing.maximum},
-          {"outline", drawing.outline}, {"panels", panels}};
+  return {{"file", drawing.file},       {"title", drawing.title},     {"field", drawing.field},
+          {"view", drawing.view},       {"minimum", drawing.minimum}, {"maximum", drawing.maximum},
+          {"outline", drawing.outline}, {"cloud", drawing.cloud},     {"panels", panels}};
 }
 
 json of(const Chart& chart) {
@@ -47,23 +43,19 @@ json of(const Chart& chart) {
                       {"x", curve.x},
                       {"y", curve.y},
                       {"dots", curve.dots},
-                      {"dashed", curve.dashed}});
+                      {"dashed", curve.dashed},
+                      {"bars", curve.bars}});
   return {{"title", chart.title}, {"x_title", chart.x_title}, {"y_title", chart.y_title},
           {"log_x", chart.log_x}, {"log_y", chart.log_y},     {"curves", curves}};
 }
 
 Drawing drawing_of(const json& value) {
-  Drawing drawing{value.at("file"),
-                  value.at("title"),
-                  value.at("field"),
-                  value.at("view"),
-                  number(value.at("minimum")),
-                  number(value.at("maximum")),
-                  value.at("outline"),
-                  {}};
+  Drawing drawing{value.at("file"),    value.at("title"),           value.at("field"),
+                  value.at("view"),    number(value.at("minimum")), number(value.at("maximum")),
+                  value.at("outline"), value.at("cloud"),           {}};
   for (const json& panel : value.at("panels"))
     drawing.panels.push_back({panel.at("file"), panel.at("label"), number(panel.at("time")),
-                              panel.at("spacing"), panel.at("clip")});
+                              panel.at("spacing"), panel.at("clip"), panel.at("cells")});
   return drawing;
 }
 
@@ -72,7 +64,7 @@ Chart chart_of(const json& value) {
               value.at("log_x"), value.at("log_y"),   {}};
   for (const json& curve : value.at("curves"))
     chart.curves.push_back({curve.at("label"), numbers(curve.at("x")), numbers(curve.at("y")),
-                            curve.at("dots"), curve.at("dashed")});
+                            curve.at("dots"), curve.at("dashed"), curve.at("bars")});
   return chart;
 }
 
@@ -86,7 +78,7 @@ std::string to_json(const RenderJob& job) {
     json charts = json::array();
     for (const Chart& chart : plot.charts)
       charts.push_back(of(chart));
-    plots.push_back({{"file", plot.file}, {"charts", charts}});
+    plots.push_back({{"file", plot.file}, {"charts", charts}, {"beside", plot.beside}});
   }
   // Labels come from folder names, which need not be UTF-8.
   return json{{"drawings", drawings}, {"plots", plots}}.dump(1, ' ', false, json::error_handler_t::replace);
@@ -99,7 +91,7 @@ RenderJob render_job_from_json(const std::string& text) {
     for (const json& drawing : root.at("drawings"))
       job.drawings.push_back(drawing_of(drawing));
     for (const json& value : root.at("plots")) {
-      Plot plot{value.at("file"), {}};
+      Plot plot{value.at("file"), {}, value.at("beside")};
       for (const json& chart : value.at("charts"))
         plot.charts.push_back(chart_of(chart));
       job.plots.push_back(std::move(plot));

@@ -67,18 +67,27 @@ constexpr Known summary_keys[] = {
 
 constexpr Known quality_keys[] = {
     {"particles", "Particles", ""},
-    {"cad_volume", "Volume of the CAD body", "m³"},
-    {"domain_volume", "Volume of the tessellated body", "m³"},
-    {"volume_sum", "Sum of the subvolumes", "m³"},
-    {"volume_error", "Error of that sum", ""},
-    {"area_sum", "Open part of the boundary", ""},
-    {"first_moment_error", "Error of the first moment", ""},
     {"spacing_mean", "Mean distance of nearest neighbours", "m"},
+    {"spacing_min", "Smallest distance", "m"},
     {"spacing_ratio", "Smallest distance over the mean", ""},
+    {"spacing_min_over_h", "Smallest distance over the h that merging used", ""},
     {"volume_min", "Smallest subvolume over the mean", ""},
     {"volume_max", "Largest subvolume over the mean", ""},
+    {"volume_sum", "Sum of the subvolumes", "m³"},
+    {"domain_volume", "Volume of the tessellated body", "m³"},
+    {"volume_error", "Sum against the tessellated body, relative", ""},
+    {"cad_volume", "Volume of the CAD body", "m³"},
+    {"cad_error", "Tessellated body against the CAD body, relative", ""},
+    {"closure_error", "Closure of the cells, worst", ""},
+    {"first_moment_error", "Error of the first moment", ""},
+    {"area_sum", "Open part of the boundary before it is balanced", ""},
+    {"area_correction", "Share of the boundary areas changed to balance them", ""},
+    {"area_imbalance", "Imbalance of the boundary areas left", ""},
     {"corners", "Corners of the body, each a particle", ""},
+    {"hidden_pairs", "Near pairs that do not see each other", ""},
+    {"inserted_particles", "Particles inserted beside slots", ""},
     {"disconnected_cells", "Cells in several pieces", ""},
+    {"stranded_volume", "Volume left on the far side of a gap, over all", ""},
 };
 
 json read(const fs::path& file) {
@@ -156,9 +165,21 @@ std::vector<Figure> quality_figures(const fs::path& folder) {
   std::vector<Figure> figures;
   if (!fs::exists(file))
     return figures;
-  const json root = read(file);
-  for (const Known& known : quality_keys)
-    add(figures, known.key, known.label, known.unit, at(root, known.key));
+  json root = read(file);
+  const auto number = [&](const char* key) {
+    const json* value = at(root, key);
+    return value && value->is_number() ? value->get<double>() : 0.0;
+  };
+  if (const double cad = number("cad_volume"); cad > 0)
+    root["cad_error"] = std::abs(number("domain_volume") - cad) / cad;
+  const bool plane = number("dimension") == 2; // volumes are areas then
+  for (const Known& known : quality_keys) {
+    std::string label = known.label;
+    if (plane && label.starts_with("Volume of"))
+      label.replace(0, 6, "Area");
+    const bool area = plane && std::string_view(known.unit) == "m³";
+    add(figures, known.key, label, area ? "m²" : known.unit, at(root, known.key));
+  }
   const json* sets = at(root, "sets");
   if (sets && sets->is_object())
     for (const auto& [name, count] : sets->items())

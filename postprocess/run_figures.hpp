@@ -22,7 +22,8 @@ struct Figure {
 /// none, or when it is damaged.
 std::vector<Figure> summary_figures(const std::filesystem::path& folder);
 
-/// Figures of folder/quality.json; none where the file is not there. InputError when it is damaged.
+/// Figures of folder/quality.json, and of its two volumes how far they are apart; none where the file is not
+/// there. InputError when it is damaged.
 std::vector<Figure> quality_figures(const std::filesystem::path& folder);
 
 /// The figure of that key; nullptr where there is none.

@@ -1,6 +1,7 @@
 #include "postprocess/render/body.hpp"
 
 #include "core/error.hpp"
+#include "core/neighbours.hpp"
 #include "io/vtk_write.hpp"
 
 #include <vtkDataArray.h>
@@ -38,6 +39,9 @@ vtkSmartPointer<vtkPointSet> read_points(const std::string& file) {
   require(set && set->GetNumberOfPoints() > 0, "the file is damaged or holds no particles", file, "");
   return set;
 }
+
+/// Half the diagonal of a lattice cell's face: nothing shines through between the spheres.
+constexpr double radius_over_spacing = 0.71;
 
 /// Component of "xx" or "x" in a tuple; -1 where there is none.
 int component_index(const std::string& name, int components) {
@@ -135,10 +139,23 @@ Body read_body(const Panel& panel, const std::string& field) {
   body.spacing = panel.spacing > 0 ? panel.spacing : typical_spacing(reference, body.plane);
   if (!(body.spacing > 0))
     body.spacing = std::max(1e-3, 0.1 * static_cast<double>(body.reference.sizes().maxCoeff()));
+  body.radii.assign(body.points.size(), static_cast<float>(radius_over_spacing * body.spacing));
   return body;
 }
 
-void keep_far_half(Body& body, const std::string& axis, const Point& direction) {
+void touch(Body& body, double largest) {
+  const int others = std::min(body.plane ? 3 : 4, static_cast<int>(body.points.size()) - 1);
+  if (others < 1)
+    return;
+  std::vector<Vec3> X;
+  for (const Point& p : body.points)
+    X.push_back(p.cast<double>());
+  const std::vector<double> distance = distance_to_nearest(X, others);
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    body.radii[i] = static_cast<float>(std::min(0.5 * distance[i], largest));
+}
+
+std::vector<bool> keep_far_half(Body& body, const std::string& axis, const Point& direction) {
   const int c = axis == "x" ? 0 : axis == "y" ? 1 : 2;
   const auto [low, high] = std::minmax_element(body.points.begin(), body.points.end(),
                                                [c](const Point& a, const Point& b) { return a[c] < b[c]; });
@@ -146,15 +163,20 @@ void keep_far_half(Body& body, const std::string& axis, const Point& direction) 
   const float side = direction[c] < -1e-6f ? -1.0f : 1.0f;
   // A layer that lies on the middle plane stays, whichever way it was rounded.
   const float slack = 0.01f * static_cast<float>(body.spacing);
+  std::vector<bool> stays(body.points.size(), false);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     if (side * (body.points[i][c] - middle) < -slack)
       continue;
+    stays[i] = true;
     body.points[kept] = body.points[i];
+    body.radii[kept] = body.radii[i];
     body.values[kept++] = body.values[i];
   }
   body.points.resize(kept);
+  body.radii.resize(kept);
   body.values.resize(kept);
+  return stays;
 }
 
 } // namespace tessera::post

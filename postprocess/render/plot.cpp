@@ -10,6 +10,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkPen.h>
 #include <vtkPlot.h>
+#include <vtkPlotBar.h>
 #include <vtkPlotPoints.h>
 #include <vtkRenderer.h>
 #include <vtkStringArray.h>
@@ -40,6 +41,10 @@ bool shown(double value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0);
 }
 
+bool has_bars(const Chart& chart) {
+  return std::any_of(chart.curves.begin(), chart.curves.end(), [](const Curve& c) { return c.bars; });
+}
+
 /// Fits the axis to what is shown of the curves, with round numbers beside it.
 void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
   const bool logarithmic = horizontal ? chart.log_x : chart.log_y;
@@ -49,8 +54,11 @@ void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
       if (!shown(curve.x[i], chart.log_x) || !shown(curve.y[i], chart.log_y))
         continue;
       const double value = horizontal ? curve.x[i] : curve.y[i];
-      low = std::min(low, value);
-      high = std::max(high, value);
+      // Bars stand on zero and reach half a class to both sides.
+      const double reach =
+          curve.bars && horizontal && curve.x.size() > 1 ? 0.5 * (curve.x[1] - curve.x[0]) : 0;
+      low = std::min(low, curve.bars ? std::min(0.0, value) : value - reach);
+      high = std::max(high, value + reach);
     }
   if (low > high)
     return;
@@ -60,7 +68,9 @@ void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
     axis.SetRange(low / 1.5, high * 1.5);
     return;
   }
-  if (high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)) || high == low) { // constant
+  if (has_bars(chart)) {
+    high += horizontal ? 0 : 0.05 * (high - low);
+  } else if (high - low <= 1e-9 * std::max(std::abs(low), std::abs(high)) || high == low) { // constant
     const double half = low == 0 ? 1 : 0.1 * std::abs(low);
     low -= half;
     high += half;
@@ -104,9 +114,15 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
   if (table->GetNumberOfRows() == 0)
     return;
   const Colour colour = curve_colour(index);
-  vtkPlot* plot = chart.AddPlot(curve.dots ? vtkChart::POINTS : vtkChart::LINE);
+  vtkPlot* plot = chart.AddPlot(curve.bars ? vtkChart::BAR : curve.dots ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
   plot->SetColor(colour[0], colour[1], colour[2], 255);
+  if (curve.bars) {
+    chart.SetBarWidthFraction(1); // classes side by side, told apart by their white rims
+    plot->GetPen()->SetColor(255, 255, 255);
+    plot->GetPen()->SetWidth(1.5f);
+    return;
+  }
   plot->SetWidth(curve.dots ? 11.0f : 3.5f);
   plot->GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot); points && curve.dots)
@@ -138,14 +154,16 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) 
 void draw_plot(const Plot& plot) {
   const auto count = static_cast<int>(plot.charts.size());
   // Many charts become lower: renderers draw no picture above 16384 pixels.
-  const int chart_height = std::clamp(12000 / std::max(count, 1), 260, 800);
-  Canvas canvas(width, chart_height * count);
+  const int height = plot.beside ? 560 : std::clamp(12000 / std::max(count, 1), 260, 800);
+  const int columns = plot.beside ? std::max(count, 1) : 1, rows = plot.beside ? 1 : count;
+  const int chart_room = plot.beside ? 800 : width;
+  Canvas canvas(chart_room * columns, height * rows);
   for (int i = 0; i < count; ++i) {
     const Chart& spec = plot.charts[static_cast<std::size_t>(i)];
-    const double low = chart_height * (count - 1 - i);
-    const bool legend = spec.curves.size() > 1;
-    const int chart_width = legend ? width - legend_width : width - 40;
-    vtkRenderer& renderer = canvas.scene({0, low}, {static_cast<double>(chart_width), low + chart_height});
+    const double left = plot.beside ? chart_room * i : 0, low = plot.beside ? 0 : height * (count - 1 - i);
+    const bool legend = !plot.beside && spec.curves.size() > 1;
+    const int chart_width = legend ? chart_room - legend_width : chart_room - 40;
+    vtkRenderer& renderer = canvas.scene({left, low}, {left + chart_width, low + height});
     const vtkNew<vtkChartXY> chart;
     style_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec.x_title);
     style_axis(*chart->GetAxis(vtkAxis::LEFT), "");
@@ -154,14 +172,14 @@ void draw_plot(const Plot& plot) {
     fit_axis(*chart->GetAxis(vtkAxis::BOTTOM), spec, true);
     fit_axis(*chart->GetAxis(vtkAxis::LEFT), spec, false);
     chart->SetAutoSize(false);
-    chart->SetSize(vtkRectf(60, 15, static_cast<float>(chart_width) - 80, chart_height - 95));
-    canvas.text({chart_width / 2.0, low + chart_height - 45}, spec.title,
+    chart->SetSize(vtkRectf(60, 15, static_cast<float>(chart_width) - 80, height - 95));
+    canvas.text({left + chart_width / 2.0, low + height - 45}, spec.title,
                 {.size = 32, .anchor = Anchor::centre, .bold = true, .width = chart_width - 40.0});
     // VTK would set it into the numbers beside the axis.
-    canvas.text({32, low + chart_height / 2.0 - 20}, spec.y_title,
+    canvas.text({left + 32, low + height / 2.0 - 20}, spec.y_title,
                 {.size = 28, .anchor = Anchor::centre, .upwards = true});
     if (legend)
-      draw_legend(canvas, spec, low + chart_height, chart_height - 150);
+      draw_legend(canvas, spec, low + height, height - 150);
     const vtkNew<vtkContextActor> actor;
     actor->GetScene()->AddItem(chart);
     actor->GetScene()->SetRenderer(&renderer);

@@ -98,8 +98,8 @@ TEST(Report, TellsTheFiguresAndShowsThePictures) {
   test::store_run(folder.path(), 6.98e-3);
   test::store(folder / "my picture.png", "not looked into");
   const auto files = write_report(folder.path(), Progress::silent());
-  EXPECT_EQ(files.size(), 3u);
-  for (const char* name : {"energies.png", "probes.png", "report.md"})
+  EXPECT_EQ(files.size(), 4u);
+  for (const char* name : {"energies.png", "probes.png", "cloud_histograms.png", "report.md"})
     EXPECT_EQ(std::count(files.begin(), files.end(), folder / name), 1) << name;
   const std::string text = content(folder / "report.md");
   EXPECT_TRUE(contains(text, "# Taylor bar\n"));
@@ -118,7 +118,7 @@ TEST(Report, AnUnfinishedRunHasOneToo) {
   std::filesystem::remove(folder / "summary.json");
   test::store(folder / "history.csv", content(folder / "history.csv") + "0.1,2");
   const auto files = write_report(folder.path(), Progress::silent());
-  EXPECT_EQ(files.size(), 3u);
+  EXPECT_EQ(files.size(), 4u);
   EXPECT_TRUE(contains(content(folder / "report.md"), "did not reach its end"));
 }
 

@@ -21,9 +21,10 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   drawing.view = "iso";
   drawing.maximum = 1.0 / 3;
   drawing.outline = true;
-  drawing.panels = {{"f.vtu", "label", NAN, 0.1, "y"}};
+  drawing.cloud = true;
+  drawing.panels = {{"f.vtu", "label", NAN, 0.1, "y", "c.vtu"}};
   job.drawings = {drawing};
-  job.plots = {{"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true}}}}}};
+  job.plots = {{"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true}}}}, true}};
   const RenderJob read = render_job_from_json(to_json(job));
   const Drawing& d = read.drawings.at(0);
   EXPECT_EQ(d.file, drawing.file);
@@ -33,6 +34,8 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   EXPECT_TRUE(std::isnan(d.minimum));
   EXPECT_EQ(d.maximum, 1.0 / 3);
   EXPECT_TRUE(d.outline);
+  EXPECT_TRUE(d.cloud);
+  EXPECT_EQ(d.panels.at(0).cells, "c.vtu");
   EXPECT_TRUE(std::isnan(d.panels.at(0).time));
   EXPECT_EQ(d.panels.at(0).spacing, 0.1);
   EXPECT_EQ(d.panels.at(0).clip, "y");
@@ -41,6 +44,8 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   EXPECT_FALSE(chart.log_y);
   EXPECT_TRUE(std::isnan(chart.curves.at(0).y.at(0)));
   EXPECT_EQ(chart.curves.at(0).y.at(1), 4);
+  EXPECT_TRUE(chart.curves.at(0).bars);
+  EXPECT_TRUE(read.plots.at(0).beside);
   EXPECT_TRUE(chart.curves.at(0).dots);
 }
 

@@ -1,0 +1,37 @@
+/// What stands in a scene: spheres, cells, boxes.
+#pragma once
+
+#include "postprocess/cell_surfaces.hpp"
+#include "postprocess/render/body.hpp"
+#include "postprocess/render/palette.hpp"
+
+#include <vtkActor.h>
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+namespace tessera::post {
+
+/// How a scene is drawn, for spheres to lie at their true depth.
+struct Optics {
+  double depth = 1;            ///< m between the nearest and farthest the camera sees
+  double metres_per_pixel = 1; ///< without perspective
+};
+
+/// Particles as shaded spheres of Body::radii, coloured by their values.
+vtkSmartPointer<vtkActor> spheres(const Body& body, const ColourScale& scale, const Optics& optics);
+
+/// Particles as dark dots of one `radius`.
+vtkSmartPointer<vtkActor> dots(const std::vector<Point>& points, double radius, const Optics& optics);
+
+/// Faces of cells coloured by values[particle].
+vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vector<double>& values,
+                                     const ColourScale& scale);
+
+/// Their edges, moved by `towards_viewer` (m) so that the faces do not swallow them.
+vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer);
+
+/// The edges of a box.
+vtkSmartPointer<vtkActor> box_lines(const Eigen::AlignedBox3f& box);
+
+} // namespace tessera::post
