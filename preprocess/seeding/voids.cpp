@@ -35,6 +35,16 @@ void VoidSearch::run(const Simplex& simplex, const std::vector<Claimed>& claims,
   search(simplex, 0, claims_.size());
 }
 
+void VoidSearch::run(const Cube& cube, double radius, const BodyBoxes& body,
+                     const std::vector<Claimed>& claims, std::uint64_t key, std::vector<Vec3>& found) {
+  claims_ = claims;
+  state_ = key;
+  found_ = &found;
+  radius_ = radius;
+  body_ = &body;
+  search(cube, 0, claims_.size());
+}
+
 /// Steele, Lea and Flood 2014 (SplitMix64).
 double VoidSearch::uniform() {
   std::uint64_t z = state_ += 0x9E3779B97F4A7C15u;
@@ -55,11 +65,30 @@ bool VoidSearch::covered(const Simplex& simplex, double least, std::size_t begin
   return false;
 }
 
-bool VoidSearch::take(const Vec3& x, double radius, std::size_t begin, std::size_t end) {
-  for (std::size_t k = begin; k < end; ++k)
-    if ((x - claims_[k].x).squaredNorm() < std::pow(claims_[k].fraction * radius, 2))
+bool VoidSearch::covered(const Cube& cube, std::size_t begin, std::size_t end) const {
+  for (std::size_t k = begin; k < end; ++k) {
+    const Vec3 farthest = (cube.middle - claims_[k].x).cwiseAbs() + Vec3::Constant(cube.half);
+    if (farthest.squaredNorm() < radius_ * radius_)
+      return true;
+  }
+  return false;
+}
+
+void VoidSearch::narrow(const Vec3& middle, double around, double radius, std::size_t begin,
+                        std::size_t end) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const double reach = claims_[k].fraction * radius + around;
+    if ((claims_[k].x - middle).squaredNorm() < reach * reach)
+      claims_.push_back(Claimed(claims_[k]));
+  }
+}
+
+bool VoidSearch::free(const Vec3& x, double radius, std::size_t begin, std::size_t end) const {
+  for (std::size_t k = begin; k < end; ++k) {
+    const double reach = claims_[k].fraction * radius;
+    if ((x - claims_[k].x).squaredNorm() < reach * reach)
       return false;
-  found_->push_back(x);
+  }
   return true;
 }
 
@@ -80,11 +109,7 @@ void VoidSearch::search(const Simplex& simplex, std::size_t begin, std::size_t e
   each_corner(simplex,
               [&](int k) { around = std::max(around, (simplex.corners[k] - middle).squaredNorm()); });
   around = std::sqrt(around);
-  for (std::size_t k = begin; k < end; ++k) {
-    const double reach = claims_[k].fraction * *most + around;
-    if ((claims_[k].x - middle).squaredNorm() < reach * reach)
-      claims_.push_back(Claimed(claims_[k]));
-  }
+  narrow(middle, around, *most, begin, end);
   const std::size_t next = claims_.size();
 
   const LongestEdge edge(simplex);
@@ -97,8 +122,11 @@ void VoidSearch::search(const Simplex& simplex, std::size_t begin, std::size_t e
     at[simplex.dimension + 1] = 1;
     Vec3 x = Vec3::Zero();
     each_corner(simplex, [&](int k) { x += (at[k + 1] - at[k]) * simplex.corners[k]; });
-    if (!take(x, radius, end, next))
-      take(middle, radius, end, next);
+    for (const Vec3& p : {x, middle})
+      if (free(p, radius, end, next)) {
+        found_->push_back(p);
+        break;
+      }
   } else {
     Simplex half = simplex;
     const Vec3 between = (simplex.corners[edge.a] + simplex.corners[edge.b]) / 2;
@@ -110,6 +138,27 @@ void VoidSearch::search(const Simplex& simplex, std::size_t begin, std::size_t e
       half.radius[replaced] = there;
       search(half, end, next);
     }
+  }
+  claims_.resize(end);
+}
+
+void VoidSearch::search(const Cube& cube, std::size_t begin, std::size_t end) {
+  if (covered(cube, begin, end))
+    return;
+  const double around = std::sqrt(3.) * cube.half;
+  narrow(cube.middle, around, radius_, begin, end);
+  const std::size_t next = claims_.size();
+  if (2 * around > grain_ * radius_) {
+    each_octant(cube, [&](const Cube& octant) { search(octant, end, next); });
+  } else {
+    Vec3 x;
+    for (int a = 0; a < 3; ++a)
+      x[a] = cube.middle[a] + (2 * uniform() - 1) * cube.half;
+    for (const Vec3& p : {x, cube.middle})
+      if (free(p, radius_, end, next) && (cube.inside || body_->holds(p))) {
+        found_->push_back(p);
+        break;
+      }
   }
   claims_.resize(end);
 }
