@@ -1,5 +1,6 @@
 #include "app/stages.hpp"
 
+#include "app/run_folder.hpp"
 #include "app/summary.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
@@ -7,9 +8,12 @@
 #include "io/cloud_file.hpp"
 #include "io/field_series.hpp"
 #include "io/history.hpp"
+#include "postprocess/picture.hpp"
 #include "postprocess/report.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace tessera::app {
 namespace {
@@ -48,12 +52,23 @@ void require_sets(const Case& the_case, const ParticleCloud& cloud) {
     require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
 }
 
+fs::path begin_folder(const Case& the_case, const Options& options, Console& console) {
+  const fs::path folder = options.output.empty() ? default_folder(the_case) : options.output;
+  open_folder(folder);
+  console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
+  remove_all_results(folder);
+  store_case(the_case, options.overrides, folder);
+  return folder;
+}
+
 preprocess::Prepared prepare_particles(const Case& the_case, const fs::path& folder, bool cells,
                                        Console& console) {
   const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
   stop_if_interrupted("import");
   preprocess::ParticleRequest request = the_case.particles;
-  request.keep_cells = cells;
+  const double expected = request.count > 0 ? static_cast<double>(request.count)
+                                            : domain.volume / std::pow(request.spacing, domain.dimension);
+  request.keep_cells = cells || expected < static_cast<double>(post::most_cells_drawn);
   preprocess::Prepared prepared = preprocess::prepare(domain, request, console.progress());
   require_sets(the_case, prepared.cloud);
   stop_if_interrupted("preparation");
@@ -62,7 +77,6 @@ preprocess::Prepared prepare_particles(const Case& the_case, const fs::path& fol
   if (cells)
     io::write_cells(prepared.cells, prepared.cloud, folder / "cells.vtu");
   io::write_text(folder / "quality.json", preprocess::to_json(prepared.quality));
-  post::draw_cloud(folder, console.progress());
   return prepared;
 }
 

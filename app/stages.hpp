@@ -3,6 +3,7 @@
 
 #include "app/case/case.hpp"
 #include "app/console.hpp"
+#include "app/options.hpp"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +17,11 @@ void require_cad_file(const Case& the_case);
 /// InputError naming the key of the case when a set it speaks of is not one of the cloud's.
 void require_sets(const Case& the_case, const ParticleCloud& cloud);
 
-/// Imports and fills the body: cloud.vtp, quality.json, cloud.png and, where `cells`, cells.vtu.
+/// The folder a new run of the case goes to, emptied of earlier results, with the case stored in it.
+std::filesystem::path begin_folder(const Case& the_case, const Options& options, Console& console);
+
+/// Imports and fills the body: cloud.vtp, quality.json and, where `cells`, cells.vtu. Hands out the cells too
+/// where they are not too many to be drawn.
 preprocess::Prepared prepare_particles(const Case& the_case, const std::filesystem::path& folder, bool cells,
                                        Console& console);
 

@@ -2,6 +2,7 @@
 #include "app/run_folder.hpp"
 #include "app/stages.hpp"
 #include "io/cloud_file.hpp"
+#include "postprocess/picture.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,9 @@ void solve(const Options& options) {
   } else {
     remove_all_results(folder);
     store_case(the_case, options.overrides, folder);
-    cloud = prepare_particles(the_case, folder, false, console).cloud;
+    preprocess::Prepared prepared = prepare_particles(the_case, folder, false, console);
+    post::draw_cloud(folder, console.progress(), &prepared.cells);
+    cloud = std::move(prepared.cloud);
   }
   const Solution solution = solve_particles(the_case, *cloud, folder, console);
   console.result(describe(the_case, solution.summary, folder, {}), solution.json);
