@@ -88,7 +88,8 @@ void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path
   case ChildEnd::How::out_of_time:
     throw InputError(fmt::format("the import takes longer than its limit of {:g} s{}", source.seconds,
                                  quoted_last_words(end.output)),
-                     name, "raise the limit, loosen [geometry] tolerance or simplify the part");
+                     name,
+                     "raise the limit, loosen [geometry] tolerance, enlarge mesh sizes or simplify the part");
   case ChildEnd::How::signalled:
     if (speaks_of_memory(end.output) || end.peak_bytes > source.bytes / 4 * 3)
       throw out_of_memory();
@@ -195,6 +196,8 @@ void note_domain(const Domain& domain, const GeometrySource& source, Progress& p
 /// power of two, so that nothing is rounded.
 importer::Request shape_request(const GeometrySource& source) {
   check_shape(*source.shape, source.dimension);
+  require(!source.background_sizes, "there are no mesh sizes in a built-in shape", name_of(source),
+          "draw it in a .geo file with a Background Field");
   importer::Request request;
   request.shape = source.shape;
   double largest = 0;

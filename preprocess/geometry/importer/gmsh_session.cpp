@@ -107,9 +107,9 @@ void fill_volume(const Sizes& sizes, const FileSizes& file, const std::string& n
   set_sizes(sizes, file);
   // Without sizes inside, the constrained Delaunay tetrahedra of the surface's own vertices (3): two to three
   // times slower than HXT, but HXT's result depends on where the system happens to put its memory, and has
-  // flat tetrahedra. With sizes, points are added to it (1), a sixth of the tetrahedra allowed at the most.
+  // flat tetrahedra. With sizes, points are added to it (1), no more than five million tetrahedra need.
   set_options({{"Mesh.Algorithm3D", sizes.from_file ? 1 : 3},
-               {"Mesh.MaxIterDelaunay3D", static_cast<double>(most_tetrahedra) / 6},
+               {"Mesh.MaxIterDelaunay3D", static_cast<double>(most_tetrahedra) / 5},
                {"Mesh.Optimize", 0},
                {"Mesh.OptimizeNetgen", 0}});
   gmsh::model::mesh::generate(3);
