@@ -78,13 +78,22 @@ void change_number(std::string& file, Random& random) {
   file.replace(at, end - at, others[random.below(others.size())]);
 }
 
+/// Another digit where one stands: a slip of the hand.
+void change_digit(std::string& file, Random& random) {
+  std::size_t at = random.below(file.size());
+  while (at < file.size() && !std::isdigit(static_cast<unsigned char>(file[at])))
+    ++at;
+  if (at < file.size())
+    file[at] = static_cast<char>('0' + random.below(10));
+}
+
 } // namespace
 
 std::string mutate(const std::string& file, std::uint64_t seed) {
   Random random(seed);
   std::string other = file;
-  for (std::size_t faults = 1 + random.below(3); faults > 0 && !other.empty(); --faults) {
-    switch (random.below(8)) {
+  for (std::size_t faults = 1 + random.below(2); faults > 0 && !other.empty(); --faults) {
+    switch (random.below(10)) {
     case 0:
       other.resize(random.below(other.size()));
       break;
@@ -100,6 +109,11 @@ std::string mutate(const std::string& file, std::uint64_t seed) {
     case 4:
     case 5:
       shift_lines(other, random, random.below(3));
+      break;
+    case 6:
+    case 7:
+      for (std::size_t n = 1 + random.below(4); n > 0; --n)
+        change_digit(other, random);
       break;
     default:
       for (std::size_t n = 1 + random.below(4); n > 0; --n)

@@ -6,8 +6,8 @@
 
 namespace tessera::test {
 
-/// The file with one to three faults in it: bytes flipped, its end or its middle missing, lines deleted,
-/// doubled or swapped, numbers changed. The same fault for the same seed, everywhere.
+/// The file with one or two faults in it: bytes flipped, its end or its middle missing, lines deleted,
+/// doubled or swapped, digits and numbers changed. The same fault for the same seed, everywhere.
 std::string mutate(const std::string& file, std::uint64_t seed);
 
 } // namespace tessera::test

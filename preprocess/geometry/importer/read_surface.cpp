@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 namespace tessera::importer {
 namespace {
@@ -38,6 +39,12 @@ std::string stl_in_small_letters(std::string text) {
   return text;
 }
 
+/// CGAL 5.5 crashes on a header whose properties begin before any element.
+bool has_ply_header(std::string_view text) {
+  const auto element = text.find("element "), property = text.find("property ");
+  return text.starts_with("ply") && element != std::string_view::npos && element < property;
+}
+
 Soup read_soup(const Request& request) {
   Soup soup;
   std::istringstream in(preprocess::read_text(request.file));
@@ -55,7 +62,7 @@ Soup read_soup(const Request& request) {
     break;
   default:
     kind = "PLY";
-    good = CGAL::IO::read_PLY(in, soup.points, soup.polygons);
+    good = has_ply_header(in.str()) && CGAL::IO::read_PLY(in, soup.points, soup.polygons);
   }
   const char* again = "export or copy it again";
   require(good, fmt::format("the file is no {} file, or it is cut off or damaged", kind), request.name,

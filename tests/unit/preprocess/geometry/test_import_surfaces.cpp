@@ -174,6 +174,9 @@ TEST_F(ImportSurfaces, obj_and_ply_that_are_not_whole_are_refused) {
   std::string many = bytes;
   many.replace(many.find("vertex 8"), 8, "vertex 888888888888");
   EXPECT_NE(complaint(write("h.ply", many)), "");
+  std::string headless = text;
+  headless.erase(headless.find("element vertex"), 17);
+  EXPECT_SAYS(complaint(write("k.ply", headless)), "no PLY file");
   std::string bad = obj;
   bad.replace(bad.find("v ") + 2, 1, "nan");
   EXPECT_SAYS(complaint(write("i.obj", bad)), "OBJ");
