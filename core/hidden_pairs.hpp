@@ -36,6 +36,12 @@ class HiddenPairs {
 
   const std::vector<std::array<std::int32_t, 2>>& pairs() const { return pairs_; }
 
+  /// Whether a cannot see somebody.
+  bool any_of(std::int64_t a) const {
+    const auto row = static_cast<std::size_t>(a);
+    return !rows_.empty() && rows_[row] < rows_[row + 1];
+  }
+
   bool contains(std::int64_t a, std::int32_t b) const {
     if (rows_.empty())
       return false;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 namespace tessera {
 
@@ -39,12 +41,20 @@ Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support,
 }
 
 std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden) {
+  std::vector<std::int32_t> all(X.size());
+  std::iota(all.begin(), all.end(), 0);
+  return distance_to_nearest(X, k, hidden, all);
+}
+
+std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden,
+                                        std::span<const std::int32_t> of) {
   Vec3 lower = X[0], upper = X[0];
   for (const Vec3& x : X) {
     lower = lower.cwiseMin(x);
     upper = upper.cwiseMax(x);
   }
-  // A first guess of the radius from the mean density over the directions the cloud has extent in.
+  // A first guess of the radius from the mean density over the directions the cloud has extent in: a ball of
+  // half as many again as wanted.
   const Vec3 extent = upper - lower;
   double volume = 1;
   int dimension = 0;
@@ -53,23 +63,25 @@ std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const Hi
       volume *= extent[i];
       ++dimension;
     }
-  const double guess =
-      dimension == 0 ? 1 : std::pow(volume * (k + 1) / static_cast<double>(X.size()), 1.0 / dimension);
-  const PointGrid grid(X, guess);
+  constexpr double unit_ball[] = {1, 2, std::numbers::pi, 4 * std::numbers::pi / 3};
+  const double wanted = volume / unit_ball[dimension] * 1.5 * (k + 1) / static_cast<double>(X.size());
+  const double guess = dimension == 0 ? 1 : std::pow(wanted, 1.0 / dimension);
+  const PointGrid grid(X, guess / 2);
 
-  std::vector<double> distance(X.size());
-  for_each(static_cast<std::int64_t>(X.size()), [&](std::int64_t a) {
-    std::vector<double> near;
-    for (double radius = guess;; radius *= 1.5) {
+  std::vector<double> distance(of.size());
+  for_each(static_cast<std::int64_t>(of.size()), [&](std::int64_t i) {
+    thread_local std::vector<double> near;
+    const std::int32_t a = of[i];
+    for (double radius = guess;; radius *= 1.4) {
       near.clear();
       grid.near(X[a], radius, [&](std::int32_t b, double r) {
-        if (b != a && r <= radius && !hidden.contains(a, b))
+        if (r <= radius && b != a && !hidden.contains(a, b))
           near.push_back(r);
       });
       if (near.size() < static_cast<std::size_t>(k))
         continue;
       std::nth_element(near.begin(), near.begin() + (k - 1), near.end());
-      distance[a] = near[k - 1];
+      distance[i] = near[k - 1];
       return;
     }
   });

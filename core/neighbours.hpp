@@ -35,4 +35,8 @@ Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support,
 /// Each particle's distance to the k-th nearest of the others it sees, m. Everybody must see k others.
 std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden = {});
 
+/// The same for the particles listed only, in their order.
+std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden,
+                                        std::span<const std::int32_t> of);
+
 } // namespace tessera

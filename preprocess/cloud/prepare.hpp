@@ -52,9 +52,9 @@ struct ParticleRequest {
   std::vector<Refinement> refine; ///< finer regions of an irregular cloud
   bool sizes_from_mesh = false;   ///< also: spacing in proportion to the edges of the domain's tetrahedra
   Backend backend = Backend::clipper;
-  /// Up to how many spacings it is found out which particles see each other; irregular clouds look at least
-  /// as far as their 30 nearest visible neighbours (14 in the plane) and half as far again.
-  double sight = 3.2;
+  /// How far it is found out which particles see each other past slots and holes: in spacings on a lattice
+  /// (0: 3.2), elsewhere in distances to the 30th visible neighbour (14th in the plane; 0: 1.5).
+  double sight = 0;
   bool keep_cells = false; ///< also return the polyhedra
   std::vector<SetSelector> sets;
 };

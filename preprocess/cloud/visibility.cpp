@@ -13,6 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
 
 namespace tessera::preprocess {
 namespace {
@@ -120,78 +123,104 @@ Eye eye_of(const Boundary& boundary, const Vec3& X, const Vec3& centroid) {
   return {X, false};
 }
 
+/// Finds the hidden pairs of a few particles at a time.
+class Lookout {
+ public:
+  Lookout(const Domain& domain, const ParticleCloud& cloud)
+      : cloud_(cloud), scaling_(scaling_for(domain, cloud.spacing)), boundary_(domain, scaling_),
+        grid_(cloud.X, 2 * cloud.spacing), doubtful_(cloud.X.size()), eyes_(cloud.X.size()),
+        hidden_(cloud.X.size()) {}
+
+  /// Looks around from those listed, each as far as its own sight.
+  void look(std::span<const std::int32_t> from, const std::vector<double>& sight) {
+    const auto n = static_cast<std::int64_t>(from.size());
+    for_each_uneven(n, [&](std::int64_t i) {
+      const std::int32_t a = from[i];
+      const double margin = (cloud_.centroid[a] - cloud_.X[a]).norm() + cloud_.spacing;
+      doubtful_[a] = boundary_.hollow_near(scaling_.in(cloud_.X[a]), (sight[a] + margin) / scaling_.length);
+    });
+    open_eyes(from, sight);
+    std::vector<std::uint8_t> looking(cloud_.X.size());
+    for (const std::int32_t a : from)
+      looking[a] = 1;
+    for_each_uneven(n, [&](std::int64_t i) {
+      const std::int32_t a = from[i];
+      hidden_[a].clear();
+      if (!doubtful_[a] || !eyes_[a]->open)
+        return;
+      grid_.near(cloud_.X[a], sight[a], [&](std::int32_t b, double r) {
+        if (b == a || r >= sight[a] || !eyes_[b]->open)
+          return;
+        // A partner who sees as far decides too: all convex around it means nothing lies between. Of two who
+        // look at each other one does the work.
+        if (r < sight[b] && (!doubtful_[b] || (looking[b] && b < a)))
+          return;
+        if (boundary_.leaves_between(eyes_[a]->x, eyes_[b]->x))
+          hidden_[a].push_back({std::min(a, b), std::max(a, b)});
+      });
+    });
+  }
+
+  HiddenPairs hidden() const {
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (const auto& of_one : hidden_)
+      pairs.insert(pairs.end(), of_one.begin(), of_one.end());
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return {cloud_.size(), std::move(pairs)};
+  }
+
+ private:
+  /// Eyes of the doubtful ones and of all they look at.
+  void open_eyes(std::span<const std::int32_t> from, const std::vector<double>& sight) {
+    std::vector<std::uint8_t> wanted(cloud_.X.size());
+    for (const std::int32_t a : from)
+      if (doubtful_[a])
+        grid_.near(cloud_.X[a], sight[a], [&](std::int32_t b, double r) { wanted[b] |= r < sight[a]; });
+    for_each_uneven(cloud_.size(), [&](std::int64_t a) {
+      if (wanted[a] && !eyes_[a])
+        eyes_[a] = eye_of(boundary_, scaling_.in(cloud_.X[a]), scaling_.in(cloud_.centroid[a]));
+    });
+  }
+
+  const ParticleCloud& cloud_;
+  Scaling scaling_;
+  Boundary boundary_;
+  PointGrid grid_;
+  std::vector<std::uint8_t> doubtful_; ///< the body is not convex around it
+  std::vector<std::optional<Eye>> eyes_;
+  std::vector<std::vector<std::array<std::int32_t, 2>>> hidden_;
+};
+
 } // namespace
 
-HiddenPairs hidden_pairs(const Domain& domain, const ParticleCloud& cloud, const std::vector<double>& sight) {
-  const std::int64_t n = cloud.size();
-  const Scaling scaling = scaling_for(domain, cloud.spacing);
-  const double L = scaling.length;
-  const Boundary boundary(domain, scaling);
-
-  std::vector<std::uint8_t> doubtful(n);
-  for_each_uneven(n, [&](std::int64_t a) {
-    const double margin = (cloud.centroid[a] - cloud.X[a]).norm() + cloud.spacing;
-    doubtful[a] = boundary.hollow_near(scaling.in(cloud.X[a]), (sight[a] + margin) / L);
-  });
-  const PointGrid grid(cloud.X, *std::max_element(sight.begin(), sight.end()));
-  // Eyes of all who may be one of a doubtful pair.
-  std::vector<std::uint8_t> looked_at(doubtful);
-  for (std::int64_t a = 0; a < n; ++a)
-    if (doubtful[a])
-      grid.near(cloud.X[a], sight[a], [&](std::int32_t b, double r) { looked_at[b] |= r < sight[a]; });
-  std::vector<Eye> eyes(n);
-  for_each_uneven(n, [&](std::int64_t a) {
-    if (looked_at[a])
-      eyes[a] = eye_of(boundary, scaling.in(cloud.X[a]), scaling.in(cloud.centroid[a]));
-  });
-
-  std::vector<std::vector<std::array<std::int32_t, 2>>> hidden(n);
-  for_each_uneven(n, [&](std::int64_t a) {
-    if (!doubtful[a] || !eyes[a].open)
-      return;
-    grid.near(cloud.X[a], sight[a], [&](std::int32_t b, double r) {
-      if (b == a || r >= sight[a] || !eyes[b].open)
-        return;
-      // A partner who sees as far decides too: all convex around it means nothing lies between, and of two
-      // doubtful ones the first one looks.
-      if (r < sight[b] && (!doubtful[b] || b < a))
-        return;
-      if (boundary.leaves_between(eyes[a].x, eyes[b].x))
-        hidden[a].push_back(
-            {std::min(static_cast<std::int32_t>(a), b), std::max(static_cast<std::int32_t>(a), b)});
-    });
-  });
-  std::vector<std::array<std::int32_t, 2>> pairs;
-  for (const auto& part : hidden)
-    pairs.insert(pairs.end(), part.begin(), part.end());
-  std::sort(pairs.begin(), pairs.end());
-  return {n, std::move(pairs)};
-}
-
 void look_around(const Domain& domain, int neighbours, double reach, ParticleCloud& cloud) {
-  constexpr double margin = 1.5; ///< over the k-th visible one: supports grow where those lie in a plane
+  cloud.hidden = {};
+  Lookout lookout(domain, cloud);
+  std::vector<std::int32_t> from(cloud.X.size());
+  std::iota(from.begin(), from.end(), 0);
   if (cloud.arrangement == "lattice") {
-    cloud.sight.assign(cloud.X.size(), reach * cloud.spacing);
-    cloud.hidden = hidden_pairs(domain, cloud, cloud.sight);
+    cloud.sight.assign(cloud.X.size(), (reach > 0 ? reach : 3.2) * cloud.spacing);
+    lookout.look(from, cloud.sight);
+    cloud.hidden = lookout.hidden();
     return;
   }
+  const double margin = reach > 0 ? reach : 1.5;
   const int others = static_cast<int>(std::min<std::int64_t>(neighbours, cloud.size() - 1));
-  cloud.hidden = {};
   cloud.sight.assign(cloud.X.size(), 0);
   // Whoever loses neighbours to a slot looks farther along its own side, which may reveal more of them.
-  for (int round = 0; round < 4; ++round) {
-    const std::vector<double> visible = distance_to_nearest(cloud.X, others, cloud.hidden);
-    bool farther = false;
-    for (std::size_t a = 0; a < visible.size(); ++a)
-      if (const double wanted = margin * visible[a]; wanted > cloud.sight[a]) {
-        cloud.sight[a] = wanted;
-        farther = true;
+  for (int round = 0; round < 4 && !from.empty(); ++round) {
+    const std::vector<double> visible = distance_to_nearest(cloud.X, others, cloud.hidden, from);
+    std::vector<std::int32_t> farther;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      if (double& sight = cloud.sight[from[i]]; margin * visible[i] > sight) {
+        sight = margin * visible[i];
+        farther.push_back(from[i]);
       }
-    if (!farther)
-      break;
-    cloud.hidden = hidden_pairs(domain, cloud, cloud.sight);
-    if (cloud.hidden.pairs().empty())
-      break;
+    from = std::move(farther);
+    lookout.look(from, cloud.sight);
+    cloud.hidden = lookout.hidden();
+    std::erase_if(from, [&](std::int32_t a) { return !cloud.hidden.any_of(a); });
   }
 }
 
