@@ -69,19 +69,9 @@ struct FittedLattice {
 /// (points on both of its faces), any spacing, half a period of shift along some axes, any shift.
 ///
 /// Small boxes cannot do better: along a side of k spacings lie k or k + 1 points, so the counts of a cube
-/// with a cubic lattice are k^a (k + 1)^(3 - a) and nothing between, up to 1/2k away from what was asked.
+/// with a cubic lattice are k^a (k + 1)^(3 - a) and, but for what the band adds, nothing between: up to 1/2k
+/// away from what was asked.
 FittedLattice lattice_for_count(const Domain& domain, const CadTopology& cad, LatticeKind kind,
                                 std::int64_t count);
-
-// Cubic lattices by their spacing alone.
-inline Lattice lattice_points(const Domain& domain, const CadTopology& cad, double spacing) {
-  return lattice_points(domain, cad, LatticeSpec{LatticeKind::cubic, spacing, Vec3::Zero()});
-}
-inline std::int64_t lattice_count(const Domain& domain, const CadTopology& cad, double spacing) {
-  return lattice_count(domain, cad, LatticeSpec{LatticeKind::cubic, spacing, Vec3::Zero()});
-}
-inline double lattice_spacing_for(const Domain& domain, const CadTopology& cad, std::int64_t count) {
-  return lattice_for_count(domain, cad, LatticeKind::cubic, count).spec.spacing;
-}
 
 } // namespace tessera::preprocess

@@ -29,9 +29,4 @@ struct TwoPass {
 TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request,
                         Progress& progress);
 
-inline TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, std::int64_t count, double merge,
-                               std::uint64_t seed, Progress& progress) {
-  return two_pass_points(body, cad, {count, merge, seed, {}, 0}, progress);
-}
-
 } // namespace tessera::preprocess
