@@ -23,7 +23,9 @@ struct ShapeSpec {
 };
 
 /// A shape this program can build itself. Boxes, plates and profiles begin at the origin, cylinders, tubes
-/// and spheres are centred on it, their axis is z with the base at z = 0.
+/// and spheres are centred on it, their axis is z with the base at z = 0. A hole goes through the middle of
+/// its plate along z. Profiles lie in xy: an l_part has arms of size[0] along x and size[1] along y, a t_part
+/// a flange of width size[0] on top of a web, size[1] high together; both are `thickness` thick.
 struct ShapeKind {
   struct Length {
     std::string name; ///< key of the case file
@@ -32,7 +34,11 @@ struct ShapeKind {
   std::string name;
   int dimension;
   std::vector<Length> lengths;
-  std::vector<std::string> surfaces; ///< names of its sets: "x_min", "side", "bore"...
+  /// Names of its sets, in their order. Flat outer faces are x_min, x_max, y_min, y_max, z_min, z_max (left,
+  /// right, bottom, top in the plane); round bodies have bottom, top, side (the outer face) and bore (the
+  /// inner). plate_with_hole adds hole, l_part the faces inner_x and inner_y (normal to x and y) of its
+  /// inside corner, t_part web_left and web_right, and flange_under for both undersides of its flange.
+  std::vector<std::string> surfaces;
 };
 
 /// 3-D: box, cylinder, sphere, tube, plate_with_hole, l_part, t_part. 2-D: rectangle, disc, ring,

@@ -27,9 +27,11 @@ std::size_t choose_body(const std::vector<Candidate>& candidates, const Request&
   std::string list;
   for (std::size_t c = 0; c < std::min(count, most_listed); ++c) {
     const Candidate& body = candidates[c];
-    list += fmt::format("{} {}{} of {} {:.4g} from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
-                        c == 0 ? ":" : ";", c + 1, body.name.empty() ? "" : " \"" + body.name + '"',
-                        request.dimension == 2 ? "area" : "volume", body.measure, body.lower[0],
+    list +=
+        fmt::format("{} {}{}", c == 0 ? ":" : ";", c + 1, body.name.empty() ? "" : " \"" + body.name + '"');
+    if (std::isfinite(body.measure)) // gmsh's own kernel does not say
+      list += fmt::format(" of {} {:.4g}", request.dimension == 2 ? "area" : "volume", body.measure);
+    list += fmt::format(" from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})", body.lower[0],
                         body.lower[1], body.lower[2], body.upper[0], body.upper[1], body.upper[2]);
   }
   if (count > most_listed)
