@@ -218,9 +218,10 @@ std::optional<std::vector<Simplex>> triangulate_in_parts(const std::vector<Vec3>
 } // namespace
 
 DelaunayGraph delaunay_graph(const std::vector<Vec3>& points) {
-  constexpr std::size_t worth_a_thread = 4000;
-  const std::int64_t parts =
-      std::min<std::int64_t>(threads(), static_cast<std::int64_t>(points.size() / worth_a_thread));
+  // The gap is closed on one thread and grows with the number of parts.
+  constexpr std::int64_t worth_a_part = 4000, most_parts = 8;
+  const std::int64_t parts = std::min<std::int64_t>(
+      {threads(), most_parts, static_cast<std::int64_t>(points.size()) / worth_a_part});
   if (parts > 1)
     if (const auto simplices = triangulate_in_parts(points, parts))
       return graph_of(points, *simplices);

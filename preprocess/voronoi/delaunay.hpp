@@ -21,7 +21,12 @@ struct DelaunayGraph {
   }
 };
 
-/// The graph of `points` (any number, also all in one plane or line). InputError where two points coincide.
+/// The graph of `points` (any number, also all in one plane or line), the same on any number of threads.
+/// InputError where two points coincide.
+///
+/// Each thread triangulates a box of the points. Tetrahedra whose circumspheres no other box reaches belong
+/// to the whole triangulation; the points of all others are triangulated once more, which closes the gap
+/// between (a few layers of points along the cuts and the hull).
 DelaunayGraph delaunay_graph(const std::vector<Vec3>& points);
 
 } // namespace tessera::preprocess

@@ -73,6 +73,20 @@ TEST(PlaneCells, AgreeWithCuttingEveryTriangleByEveryBisectorInThePlane) {
   }
 }
 
+TEST(PlaneCells, FewSeedsAndSeedsInALineFillTheBody) {
+  const Domain domain = test::l_slab(2);
+  std::vector<Vec3> line;
+  for (int i = 0; i < 7; ++i)
+    line.emplace_back(0.1 + 0.25 * i, 0.5, 0);
+  for (const auto& X : {random_points(domain, 1), random_points(domain, 2), random_points(domain, 3), line}) {
+    const Tessellation t(domain, X);
+    double sum = 0;
+    for (const double v : measure_cells(t.voronoi).volume)
+      sum += t.volume(v);
+    EXPECT_NEAR(sum, 3, 1e-12);
+  }
+}
+
 TEST(PlaneCells, OnlyCellsAtWallsAreCutByTetrahedra) {
   const Domain domain = test::l_slab(8);
   const Tessellation t(domain, random_points(domain, 2000));
