@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "preprocess/geometry/geo_script.hpp"
 #include "preprocess/geometry/import.hpp"
 
@@ -7,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 namespace tessera::preprocess {
 namespace {
@@ -92,9 +92,8 @@ TEST(GeoScript, the_line_is_told) {
 }
 
 TEST(GeoScript, import_refuses_and_nothing_runs_unless_trusted) {
-  std::string name = (fs::temp_directory_path() / "tessera-test-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
-  const fs::path folder = name, witness = folder / "witness";
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path(), witness = folder / "witness";
   const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0,0,0,1,1,1};\n";
   std::ofstream(folder / "evil.geo") << box << "SystemCall \"touch " << witness.string() << "\";\n";
   try {
@@ -127,7 +126,6 @@ TEST(GeoScript, import_refuses_and_nothing_runs_unless_trusted) {
   EXPECT_THROW(
       import_geometry({.file = folder / "short.geo", .unit = "m", .trust = true}, Progress::silent()),
       InputError);
-  fs::remove_all(folder);
 }
 
 } // namespace
