@@ -97,9 +97,11 @@ vtkSmartPointer<vtkActor> spheres(const Body& body, const ColourScale& scale, co
   return splats(body.points, colours, body.radii, optics);
 }
 
-vtkSmartPointer<vtkActor> dots(const std::vector<Point>& points, double radius, const Optics& optics) {
-  return splats(points, std::vector<Colour>(points.size(), Colour{35, 35, 35}),
-                std::vector<float>(points.size(), static_cast<float>(radius)), optics);
+vtkSmartPointer<vtkActor> dots(const Body& body, double part, const Optics& optics) {
+  std::vector<float> radii;
+  for (const float radius : body.radii)
+    radii.push_back(static_cast<float>(part) * radius);
+  return splats(body.points, std::vector<Colour>(radii.size(), Colour{35, 35, 35}), radii, optics);
 }
 
 vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vector<double>& values,
@@ -129,7 +131,7 @@ vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vecto
   return actor;
 }
 
-vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer) {
+vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer, float width) {
   const vtkNew<vtkCellArray> lines;
   for (const auto& [a, b] : cells.edges) {
     const vtkIdType ends[2] = {a, b};
@@ -138,7 +140,7 @@ vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& tow
   const vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(cells));
   data->SetLines(lines);
-  auto actor = line_actor(data, 0.15, 1.4f);
+  auto actor = line_actor(data, 0.15, width);
   actor->SetPosition(towards_viewer.x(), towards_viewer.y(), towards_viewer.z());
   return actor;
 }

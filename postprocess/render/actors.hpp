@@ -21,15 +21,15 @@ struct Optics {
 /// Particles as shaded spheres of Body::radii, coloured by their values.
 vtkSmartPointer<vtkActor> spheres(const Body& body, const ColourScale& scale, const Optics& optics);
 
-/// Particles as dark dots of one `radius`.
-vtkSmartPointer<vtkActor> dots(const std::vector<Point>& points, double radius, const Optics& optics);
+/// Particles as dark dots of `part` of Body::radii.
+vtkSmartPointer<vtkActor> dots(const Body& body, double part, const Optics& optics);
 
 /// Faces of cells coloured by values[particle].
 vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vector<double>& values,
                                      const ColourScale& scale);
 
-/// Their edges, moved by `towards_viewer` (m) so that the faces do not swallow them.
-vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer);
+/// Their edges, `width` pixels wide, moved by `towards_viewer` (m) so that the faces do not swallow them.
+vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer, float width);
 
 /// The edges of a box.
 vtkSmartPointer<vtkActor> box_lines(const Eigen::AlignedBox3f& box);

@@ -25,18 +25,16 @@ namespace {
 // Pixels of the layout, from the outside inwards.
 constexpr double margin = 40, title_height = 90, caption_height = 180, bar_column = 260, gap = 30;
 constexpr double wanted_height = 900; ///< of a body's part of the picture
-constexpr double widest = 2600;       ///< of all bodies together
+constexpr double wanted_plane_height = 1300;
+constexpr double widest = 2600; ///< of all bodies together
 constexpr double least_width = 420, least_height = 300;
 
-/// "13.4 × 13.4 × 21.5 mm": what the particles' centres span along x, y and z.
-std::string size_of(const Body& body) {
-  Eigen::AlignedBox3f box;
-  for (const Point& p : body.points)
-    box.extend(p);
+/// "13.4 × 13.4 × 21.5 mm": what a box spans along x, y and z.
+std::string size_of(const Eigen::AlignedBox3f& box, bool plane) {
   const Eigen::Vector3d span = box.sizes().cast<double>();
   const Unit unit = readable_unit("m", span.maxCoeff());
   std::string text = fmt::format("{} × {}", figure(span.x() * unit.factor), figure(span.y() * unit.factor));
-  if (!body.plane)
+  if (!plane)
     text += " × " + figure(span.z() * unit.factor);
   return fmt::format("{} {}", text, unit.name);
 }
@@ -46,6 +44,14 @@ std::string caption_of(const Panel& panel) {
   if (panel.label.empty() || time.empty())
     return panel.label + time;
   return panel.label + ",  " + time;
+}
+
+/// What the particles' centres span.
+Eigen::AlignedBox3f span_of(const Body& body) {
+  Eigen::AlignedBox3f box;
+  for (const Point& p : body.points)
+    box.extend(p);
+  return box;
 }
 
 /// One panel as it is drawn.
@@ -73,9 +79,11 @@ std::vector<Body> read_bodies(const Drawing& drawing) {
   return bodies;
 }
 
-Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const View& view) {
+/// `cells` are those of panel.cells.
+Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const CellMesh& cells,
+               const View& view) {
   Scene scene{panel, std::move(body), {}, "", {}};
-  scene.second_line = size_of(scene.body);
+  scene.second_line = size_of(drawing.cloud ? scene.body.reference : span_of(scene.body), scene.body.plane);
   // Cells ask for the values of all particles.
   std::vector<bool> kept(scene.body.points.size(), true);
   Body half = scene.body;
@@ -87,7 +95,7 @@ Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const View
   if (panel.cells.empty()) {
     scene.body = std::move(half);
   } else {
-    scene.cells = cell_surfaces(read_cells(panel.cells), kept, 1e-6 * scene.body.spacing);
+    scene.cells = cell_surfaces(cells, kept, 1e-6 * scene.body.spacing);
     for (const Vec3& x : scene.cells.points)
       scene.extent.extend(view.seen(x.cast<float>()));
   }
@@ -113,10 +121,12 @@ void fill(vtkRenderer& renderer, const Scene& scene, const Drawing& drawing, con
     renderer.AddActor(spheres(scene.body, scale, optics));
   } else {
     renderer.AddActor(cell_faces(scene.cells, scene.body.values, scale));
-    renderer.AddActor(cell_edges(scene.cells, -0.01f * spacing * view.into));
-    if (scene.body.plane)
-      renderer.AddActor(
-          dots(scene.body.points, std::max(0.1 * scene.body.spacing, 1.5 * metres_per_pixel), optics));
+    // Neither lines nor dots may hide the colours of small cells.
+    const double cell = scene.body.spacing / metres_per_pixel;
+    renderer.AddActor(cell_edges(scene.cells, -0.01f * spacing * view.into,
+                                 static_cast<float>(std::clamp(cell / 14, 0.4, 1.4))));
+    if (scene.body.plane && cell >= 14)
+      renderer.AddActor(dots(scene.body, 0.2, optics));
   }
   if (drawing.outline)
     renderer.AddActor(box_lines(scene.body.reference));
@@ -128,7 +138,7 @@ struct Layout {
 };
 
 /// One length scale for all panels; the picture takes the shape of the bodies so that they fill it.
-Layout layout_of(const std::vector<Scene>& scenes) {
+Layout layout_of(const std::vector<Scene>& scenes, double tallest) {
   double width = 0, height = 0;
   for (const Scene& scene : scenes) {
     width = std::max(width, static_cast<double>(scene.extent.sizes().x()));
@@ -136,7 +146,7 @@ Layout layout_of(const std::vector<Scene>& scenes) {
   }
   const double widest_panel = std::min(1500.0, widest / static_cast<double>(scenes.size()));
   Layout layout;
-  layout.metres_per_pixel = std::max(width / widest_panel, height / wanted_height);
+  layout.metres_per_pixel = std::max(width / widest_panel, height / tallest);
   layout.panel_width = std::max(width / layout.metres_per_pixel, least_width);
   layout.body_height = std::max(height / layout.metres_per_pixel, least_height);
   return layout;
@@ -166,10 +176,20 @@ void draw_particles(const Drawing& asked) {
 
   const Range range = range_of(bodies, drawing.cloud ? 0.01 : 0.001);
   const ColourScale scale = scale_of(drawing, quantity, range);
+  std::vector<CellMesh> cells(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (drawing.panels[i].cells.empty())
+      continue;
+    cells[i] = read_cells(drawing.panels[i].cells);
+    // Cells reach to the boundary, particles need not: all panels show one body.
+    for (Body& body : bodies)
+      for (const Vec3& x : cells[i].points)
+        body.reference.extend(x.cast<float>());
+  }
   std::vector<Scene> scenes;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    scenes.push_back(scene_of(drawing, drawing.panels[i], std::move(bodies[i]), view));
-  const Layout layout = layout_of(scenes);
+    scenes.push_back(scene_of(drawing, drawing.panels[i], std::move(bodies[i]), cells[i], view));
+  const Layout layout = layout_of(scenes, plane ? wanted_plane_height : wanted_height);
   const auto count = static_cast<double>(scenes.size());
   const double bodies_width = count * layout.panel_width + (count - 1) * gap;
   Canvas canvas(static_cast<int>(2 * margin + bodies_width + bar_column),
