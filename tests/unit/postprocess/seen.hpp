@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace tessera::test {
@@ -17,6 +18,7 @@ struct Seen {
   int width = 0, height = 0;
   std::set<std::array<int, 3>> colours;
   double white = 0;               ///< share of the pixels
+  int largest_patch = 0;          ///< pixels of the most frequent saturated colour
   int left = 1 << 30, right = -1; ///< columns of the saturated pixels, that is of the body and the colour bar
 
   explicit Seen(const std::filesystem::path& file) {
@@ -26,6 +28,7 @@ struct Seen {
     vtkImageData* image = reader->GetOutput();
     width = image->GetDimensions()[0];
     height = image->GetDimensions()[1];
+    std::map<std::array<int, 3>, int> saturated;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const auto* p = static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
@@ -34,6 +37,7 @@ struct Seen {
         const auto [low, high] = std::minmax({p[0], p[1], p[2]});
         if (high - low < 60)
           continue;
+        largest_patch = std::max(largest_patch, ++saturated[{p[0], p[1], p[2]}]);
         left = std::min(left, x);
         right = std::max(right, x);
       }
