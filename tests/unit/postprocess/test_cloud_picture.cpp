@@ -130,7 +130,7 @@ TEST(CloudPicture, ShowsGivenCellsWithoutStoringThem) {
   const Seen cells(folder / "cloud.png");
   EXPECT_EQ(out.str(), "");
   EXPECT_FALSE(std::filesystem::exists(folder / "cells.vtu"));
-  EXPECT_GT(cells.largest_patch, 5 * particles.largest_patch) << "faces are flat, spheres are shaded";
+  EXPECT_GT(cells.largest_patch, 2 * particles.largest_patch) << "faces are flat, spheres are shaded";
   io::write_cells(cubes.cells, cubes.cloud, folder / "cells.vtu");
   ASSERT_EQ(draw_cloud(folder.path(), notes).size(), 1u);
   EXPECT_EQ(Seen(folder / "cloud.png").colours, cells.colours) << "stored cells look like given ones";
