@@ -108,7 +108,8 @@ void lattice_scan(benchmark::State& state) {
   const double spacing = 1.0 / static_cast<double>(state.range(0));
   std::int64_t points = 0;
   for (auto _ : state)
-    points += static_cast<std::int64_t>(lattice_points(domain, cad, {LatticeKind::cubic, spacing}).index.size());
+    points +=
+        static_cast<std::int64_t>(lattice_points(domain, cad, {LatticeKind::cubic, spacing}).index.size());
   state.SetItemsProcessed(points);
 }
 BENCHMARK(lattice_scan)->ArgName("per_metre")->Arg(32)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
@@ -117,7 +118,8 @@ BENCHMARK(lattice_scan)->ArgName("per_metre")->Arg(32)->Arg(100)->Arg(200)->Unit
 void lattice_cells(benchmark::State& state) {
   const Domain domain = test::l_domain(3);
   const CadTopology cad(domain);
-  const Lattice lattice = lattice_points(domain, cad, {LatticeKind::cubic, 1.0 / static_cast<double>(state.range(0))});
+  const Lattice lattice =
+      lattice_points(domain, cad, {LatticeKind::cubic, 1.0 / static_cast<double>(state.range(0))});
   std::vector<Vec3> integers;
   for (const auto& i : lattice.index)
     integers.emplace_back(i[0], i[1], i[2]);
