@@ -21,8 +21,9 @@ namespace {
 /// Draws seeds and takes the vertices of their cells as particles, for any number of seeds.
 class FirstPass {
  public:
-  FirstPass(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request)
-      : body_(body), cad_(cad), request_(request), volume_(graded_volume(*body.domain, request.size)) {}
+  FirstPass(const TetBody& body, const CadTopology& cad, const TwoPassRequest& request, Progress& progress)
+      : body_(body), cad_(cad), request_(request), progress_(progress),
+        volume_(graded_volume(*body.domain, request.size)) {}
 
   TwoPass operator()(std::int64_t count) const {
     const int dimension = body_.domain->dimension;
@@ -33,11 +34,13 @@ class FirstPass {
       seeds.push_back(body_.scaling.in(random.next()));
     seeds = permuted(seeds, hilbert_order(seeds));
     if (request_.relax_seeds > 0)
-      seeds = relaxed_seeds(body_, cad_, std::move(seeds), request_.size, request_.relax_seeds,
-                            Progress::silent());
+      seeds = relaxed_seeds(body_, cad_, std::move(seeds), request_.size, request_.relax_seeds, progress_);
+    progress_.begin("first Voronoi pass", 3);
     const DelaunayGraph graph = delaunay_graph(seeds);
+    progress_.advance(1);
     stop_if_interrupted("first Voronoi pass");
     const PlacedPoints vertices = cell_vertices(RestrictedVoronoi(body_, seeds, graph));
+    progress_.advance(2);
     stop_if_interrupted("first Voronoi pass");
     const double h = std::pow(volume_ / static_cast<double>(vertices.size()), 1. / dimension);
     const double radius = request_.merge * h / body_.scaling.length;
@@ -45,7 +48,9 @@ class FirstPass {
     if (request_.size)
       for_each(vertices.size(),
                [&](std::int64_t i) { radii[i] *= request_.size(body_.scaling.out(vertices.X[i])); });
-    return {merged(vertices, cad_, radii, dimension), count, h};
+    TwoPass result{merged(vertices, cad_, radii, dimension), count, h};
+    progress_.finish(fmt::format("{} seeds, {} particles", count, result.points.size()));
+    return result;
   }
 
   /// Seeds that give about this many particles.
@@ -61,6 +66,7 @@ class FirstPass {
   const TetBody& body_;
   const CadTopology& cad_;
   const TwoPassRequest& request_;
+  Progress& progress_;
   double volume_;
 };
 
@@ -70,17 +76,15 @@ TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, const TwoPa
                         Progress& progress) {
   constexpr int most_tries = 16;
   const auto wanted = static_cast<double>(request.count);
-  progress.begin("first Voronoi pass", most_tries);
   TwoPass best;
   double best_error = std::numeric_limits<double>::infinity();
   std::set<std::int64_t> tried;
-  const FirstPass first_pass(body, cad, request);
+  const FirstPass first_pass(body, cad, request, progress);
   auto seeds = first_pass.seeds_for(wanted);
   for (int t = 0; t < most_tries && tried.insert(seeds).second; ++t) {
     TwoPass next = first_pass(seeds);
     const auto got = static_cast<double>(next.points.size());
     const double error = std::abs(got - wanted) / wanted;
-    progress.advance(t + 1, fmt::format("{} seeds, {} particles", seeds, next.points.size()));
     if (error < best_error) {
       best = std::move(next);
       best_error = error;
@@ -93,7 +97,6 @@ TwoPass two_pass_points(const TetBody& body, const CadTopology& cad, const TwoPa
       corrected = std::max<std::int64_t>(1, corrected + (step % 2 ? step : -step));
     seeds = corrected;
   }
-  progress.finish(fmt::format("{} seeds, {} particles", best.seeds, best.points.size()));
   return best;
 }
 
