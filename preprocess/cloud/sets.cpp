@@ -167,6 +167,13 @@ ParticleSet selected_set(const SetSource& source, const SetSelector& selector) {
       if (std::abs(unit.dot(cloud.X[i] - plane->point)) <= tolerance)
         set.particles.push_back(i);
     surfaces = surfaces_in(source, plane->point, unit, tolerance);
+    if (source.owners_belong && !surfaces.empty()) {
+      // A lattice may pass by the surface that lies in the plane: whoever owns some of it is meant too.
+      const ParticleSet owners = surface_set(source, selector.name, surfaces);
+      std::set<std::int32_t> members(set.particles.begin(), set.particles.end());
+      members.insert(owners.particles.begin(), owners.particles.end());
+      set.particles.assign(members.begin(), members.end());
+    }
   } else if (const auto* box = std::get_if<BoxSelector>(&selector.where)) {
     for (std::int32_t i = 0; i < cloud.size(); ++i)
       if (((cloud.X[i] - box->lower).array() >= -tolerance).all() &&

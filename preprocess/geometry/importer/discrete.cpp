@@ -94,28 +94,11 @@ MeshBody choose_mesh_body(const Request& request) {
   return chosen;
 }
 
-void refuse_other_elements(const std::string& name) {
-  std::vector<int> types;
-  gmsh::model::mesh::getElementTypes(types, 3);
-  for (const int type : types)
-    if (type != 4) {
-      std::string kind;
-      int dimension, order, nodes, primary;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(type, kind, dimension, order, nodes, local, primary);
-      throw InputError(
-          fmt::format("the mesh has elements of type {}; only four-node tetrahedra are read", kind), name,
-          "save it with first-order tetrahedra");
-    }
-  require(!types.empty(), "there are no tetrahedra in the mesh", name,
-          "mesh the volume, not only the surface");
-}
-
 } // namespace
 
 Domain import_mesh(const Request& request) {
   open_file(request.file, request.name);
-  refuse_other_elements(request.name);
+  require_first_order(3, request.name);
   const MeshBody body = choose_mesh_body(request);
   TaggedDomain tagged = read_tetrahedra(body.volumes, body.corners, request.name, false);
   Domain& domain = tagged.domain;

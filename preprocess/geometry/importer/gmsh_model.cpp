@@ -217,17 +217,10 @@ void read_curves(TaggedDomain& tagged) {
 
 void read_groups(TaggedDomain& tagged, const std::vector<int>& volumes) {
   const bool others = tags_of(3).size() > volumes.size();
-  gmsh::vectorpair physicals;
-  gmsh::model::getPhysicalGroups(physicals);
-  for (const auto& [dimension, physical] : physicals) {
+  for (const auto& [dimension, name, entities] : physical_groups()) {
     Domain::Group group;
     group.dimension = dimension;
-    gmsh::model::getPhysicalName(dimension, physical, group.name);
-    if (group.name.empty())
-      group.name = fmt::format("physical{}", physical);
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
-    std::sort(entities.begin(), entities.end());
+    group.name = name;
     bool of_body = false;
     for (const int tag : entities) {
       of_body = of_body || (dimension == 3 && std::count(volumes.begin(), volumes.end(), tag) > 0);

@@ -121,4 +121,39 @@ void fill_volume(const Sizes& sizes, const FileSizes& file, const std::string& n
                           : "ask for a looser [geometry] tolerance");
 }
 
+std::vector<PhysicalGroup> physical_groups() {
+  gmsh::vectorpair physicals;
+  gmsh::model::getPhysicalGroups(physicals);
+  std::vector<PhysicalGroup> groups;
+  for (const auto& [dimension, physical] : physicals) {
+    PhysicalGroup group{dimension, "", {}};
+    gmsh::model::getPhysicalName(dimension, physical, group.name);
+    if (group.name.empty())
+      group.name = fmt::format("physical{}", physical);
+    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, group.entities);
+    std::sort(group.entities.begin(), group.entities.end());
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+void require_first_order(int dimension, const std::string& name) {
+  const bool plane = dimension == 2;
+  const int wanted = plane ? 2 : 4; // gmsh's numbers of the element types
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, dimension);
+  for (const int type : types)
+    if (type != wanted) {
+      std::string kind;
+      int of_dimension, order, nodes, primary;
+      std::vector<double> local;
+      gmsh::model::mesh::getElementProperties(type, kind, of_dimension, order, nodes, local, primary);
+      throw InputError(fmt::format("the mesh has elements of type {}; only {} are read", kind,
+                                   plane ? "three-node triangles" : "four-node tetrahedra"),
+                       name, fmt::format("save it with first-order {}", plane ? "triangles" : "tetrahedra"));
+    }
+  require(!types.empty(), fmt::format("there are no {} in the mesh", plane ? "triangles" : "tetrahedra"),
+          name, plane ? "mesh the plane surface" : "mesh the volume, not only the surface");
+}
+
 } // namespace tessera::importer

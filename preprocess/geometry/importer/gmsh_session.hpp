@@ -24,6 +24,18 @@ std::string first_complaint();
 /// Tags of the model's entities of one dimension, ascending.
 std::vector<int> tags_of(int dimension);
 
+/// A physical group of the file.
+struct PhysicalGroup {
+  int dimension;
+  std::string name;          ///< "physical7" where the file names none
+  std::vector<int> entities; ///< tags, ascending
+};
+std::vector<PhysicalGroup> physical_groups();
+
+/// Throws InputError unless the mesh has elements of a dimension, all of them of the first order: three-node
+/// triangles in the plane, four-node tetrahedra in space.
+void require_first_order(int dimension, const std::string& name);
+
 /// How long the edges of a mesh are to be.
 struct Sizes {
   double largest;

@@ -136,23 +136,11 @@ void choose_piece(TaggedFigure& tagged, const Request& request) {
       v = number.at(v);
 }
 
-void refuse_other_elements(const std::string& name) {
+void refuse_volume_elements(const std::string& name) {
   std::vector<int> types;
   gmsh::model::mesh::getElementTypes(types, 3);
   require(types.empty(), "the mesh has volume elements: it is not of a plane body", name,
           "set [geometry] dimension = 3, or save the plane surface only");
-  gmsh::model::mesh::getElementTypes(types, 2);
-  require(!types.empty(), "there are no triangles in the mesh", name, "mesh the plane surface");
-  for (const int type : types)
-    if (type != 2) {
-      std::string kind;
-      int dimension, order, nodes, primary;
-      std::vector<double> local;
-      gmsh::model::mesh::getElementProperties(type, kind, dimension, order, nodes, local, primary);
-      throw InputError(
-          fmt::format("the mesh has elements of type {}; only three-node triangles are read", kind), name,
-          "save it with first-order triangles");
-    }
 }
 
 } // namespace
@@ -187,7 +175,8 @@ Domain import_plane_cad(const Request& request) {
 
 Domain import_plane_mesh(const Request& request) {
   open_file(request.file, request.name);
-  refuse_other_elements(request.name);
+  refuse_volume_elements(request.name);
+  require_first_order(2, request.name);
   TaggedFigure tagged = read_triangles({}, request);
   choose_piece(tagged, request);
   if (!read_sides(tagged, request)) {

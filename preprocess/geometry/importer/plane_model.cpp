@@ -122,20 +122,13 @@ bool read_sides(TaggedFigure& tagged, const Request& request) {
 }
 
 void read_plane_groups(const TaggedFigure& tagged, const std::vector<int>& surfaces, Domain& domain) {
-  gmsh::vectorpair physicals;
-  gmsh::model::getPhysicalGroups(physicals);
   const bool others = tags_of(2).size() > surfaces.size();
-  for (const auto& [dimension, physical] : physicals) {
+  for (const auto& [dimension, name, entities] : physical_groups()) {
     if (dimension > 2)
       continue;
     Domain::Group group;
     group.dimension = dimension == 0 ? 0 : dimension + 1;
-    gmsh::model::getPhysicalName(dimension, physical, group.name);
-    if (group.name.empty())
-      group.name = fmt::format("physical{}", physical);
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(dimension, physical, entities);
-    std::sort(entities.begin(), entities.end());
+    group.name = name;
     bool of_body = false;
     for (const int tag : entities) {
       if (dimension == 2) {

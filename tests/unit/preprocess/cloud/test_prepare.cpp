@@ -72,6 +72,21 @@ TEST_P(AtScale, BoxAndLShapeAreTessellatedExactly) {
   }
 }
 
+TEST(Prepare, APlaneOnAFaceSelectsItsOwnersWhereTheLatticePassesBy) {
+  ParticleRequest request = lattice(0.3); // 0.05 off every face
+  request.sets = {{"face", PlaneSelector{Vec3::Zero(), Vec3::UnitX()}},
+                  {"middle", PlaneSelector{Vec3(0.35, 0, 0), Vec3::UnitX()}}};
+  const ParticleCloud cloud = prepare(test::box_domain(), request, Progress::silent()).cloud;
+  EXPECT_EQ(cloud.size(), 64);
+  EXPECT_EQ(cloud.set("face").particles, cloud.set("xmin").particles);
+  EXPECT_EQ(cloud.set("face").particles.size(), 16u);
+  EXPECT_EQ(cloud.set("middle").particles.size(), 16u);
+  Vec3 area = Vec3::Zero();
+  for (const Vec3& A : cloud.set("face").area)
+    area += A;
+  EXPECT_LE((area - Vec3(-1, 0, 0)).norm(), 1e-14);
+}
+
 TEST(Prepare, LatticeOfTheCubeHasItsPointsOnAllFaces) {
   const Domain box = test::box_domain();
   const Prepared p = prepare(box, lattice(0.125), Progress::silent());
