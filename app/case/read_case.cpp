@@ -2,11 +2,13 @@
 #include "app/case/read_cloud.hpp"
 #include "app/case/table.hpp"
 #include "core/error.hpp"
+#include "solver/physics/materials/catalogue.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <sstream>
 
@@ -15,12 +17,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Where a material keeps the constants that are one number.
+const std::map<std::string, double solver::MaterialSpec::*> material_numbers = {
+    {"density", &solver::MaterialSpec::density}, {"young", &solver::MaterialSpec::young},
+    {"poisson", &solver::MaterialSpec::poisson}, {"c1", &solver::MaterialSpec::c1},
+    {"c2", &solver::MaterialSpec::c2},           {"bulk", &solver::MaterialSpec::bulk}};
+
+/// Reads the constants its law goes by, and refuses those of other laws.
 solver::MaterialSpec read_material(Table material) {
+  if (!material.has("law")) // what the other keys should be is not known before it is there
+    for (const solver::LawDescription& law : solver::law_catalogue())
+      for (const solver::LawParameter& parameter : law.parameters)
+        material.allow(parameter.key);
   solver::MaterialSpec spec;
-  spec.law = material.text("law");
-  spec.density = material.number("density");
-  spec.young = material.number("young");
-  spec.poisson = material.number("poisson");
+  spec.law = material.choice("law", solver::law_names());
+  // The thesis' own constants of Mooney and Rivlin's law.
+  const bool by_mu = spec.law == "mooney_rivlin" && (material.has("mu1") || material.has("mu2"));
+  for (const solver::LawParameter& parameter : solver::find_law(spec.law)->parameters) {
+    if (by_mu && parameter.key == "c1")
+      spec.c1 = 0.5 * material.number("mu1", not_negative);
+    else if (by_mu && parameter.key == "c2")
+      spec.c2 = -0.5 * material.number("mu2", not_positive);
+    else if (parameter.list)
+      (parameter.key == "mu" ? spec.mu : spec.alpha) = material.number_list(parameter.key);
+    else
+      spec.*material_numbers.at(parameter.key) = material.number(parameter.key);
+  }
   if (auto plasticity = material.optional_table("plasticity")) {
     spec.plasticity = solver::PlasticitySpec{plasticity->number("yield"), plasticity->number("hardening")};
     plasticity->finish();

@@ -219,6 +219,19 @@ std::vector<double> Table::numbers(const std::string& key, int count, Range rang
   return values;
 }
 
+std::vector<double> Table::number_list(const std::string& key) {
+  const toml::node* node = declare_wanted(key);
+  if (node == nullptr)
+    return {};
+  const toml::array* list = node->as_array();
+  if (list == nullptr || list->empty())
+    wrong_type(key, *node, "a list of numbers such as [1.5, -2]");
+  std::vector<double> values;
+  for (std::size_t i = 0; i < list->size(); ++i)
+    values.push_back(number_in(fmt::format("{}.{}", key, i), *list->get(i), any_number));
+  return values;
+}
+
 std::optional<std::array<std::string, 3>> Table::optional_formulas(const std::string& key) {
   const toml::node* node = declare(key);
   if (node == nullptr)

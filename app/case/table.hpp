@@ -21,6 +21,7 @@ struct Range {
 inline constexpr Range any_number{[](double) { return true; }, ""};
 inline constexpr Range positive{[](double x) { return x > 0; }, "greater than 0"};
 inline constexpr Range not_negative{[](double x) { return x >= 0; }, "0 or more"};
+inline constexpr Range not_positive{[](double x) { return x <= 0; }, "0 or less"};
 inline constexpr Range zero_to_one{[](double x) { return x >= 0 && x <= 1; }, "between 0 and 1"};
 
 /// Getters named like their type want the key; `..._or` and `optional_...` do not. A value of the wrong type
@@ -51,6 +52,8 @@ class Table {
   std::optional<Vec3> optional_vector(const std::string& key);
   /// A list of that many numbers.
   std::vector<double> numbers(const std::string& key, int count, Range range = any_number);
+  /// A list of one or more numbers.
+  std::vector<double> number_list(const std::string& key);
   /// Three formulas, each a string or a number.
   std::optional<std::array<std::string, 3>> optional_formulas(const std::string& key);
   /// A number or a word.
@@ -60,6 +63,9 @@ class Table {
   std::optional<Table> optional_table(const std::string& key);
   /// [[key]]: none, one or many.
   std::vector<Table> tables(const std::string& key);
+
+  /// A key somebody else may ask for: finish() lets it pass.
+  void allow(const std::string& key) { declared_.push_back(key); }
 
   /// InputError on a key nobody asked for (with the nearest one and the list), then on a wanted one that is
   /// missing.

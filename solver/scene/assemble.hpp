@@ -5,9 +5,7 @@
 #include "core/particle_cloud.hpp"
 #include "solver/operators/support.hpp"
 #include "solver/physics/body.hpp"
-#include "solver/physics/materials/hencky.hpp"
-#include "solver/physics/plasticity/hardening.hpp"
-#include "solver/physics/plasticity/von_mises.hpp"
+#include "solver/physics/law.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"
 
@@ -97,20 +95,19 @@ std::vector<Plane<D>> plane_walls(const SceneSpec& scene, const ParticleCloud& c
 }
 
 /// Calls use(assembly) with the types the scene asks for.
-template <int D, class Law, class Use>
-auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const Law& law, Use&& use) {
+template <int D, ConstitutiveLaw L, class Use>
+auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const L& law, Use&& use) {
   Neighbours graph = build_graph<D>(scene, cloud);
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   const std::vector<double> nearest = distance_to_nearest(cloud.X, 1);
   const double smallest = *std::min_element(nearest.begin(), nearest.end());
-  const auto elastic = ElasticConstants::from(scene.material.young, scene.material.poisson);
-  const double wave_speed = std::sqrt(elastic.pressure_wave_modulus() / scene.material.density);
+  const double wave_speed = std::sqrt(law.linearised().pressure_wave_modulus() / scene.material.density);
   std::vector<Vec<D>> X(cloud.X.size());
   for (std::size_t a = 0; a < X.size(); ++a)
     X[a] = cloud.X[a].head<D>();
 
   const auto assemble = [&]<class Dissipation>(Dissipation dissipation) {
-    using ThisBody = Body<D, Law, Dissipation>;
+    using ThisBody = Body<D, L, Dissipation>;
     Assembly<ThisBody> assembly{ThisBody(std::move(X), cloud.V, scene.material.density, wave_speed, law,
                                          std::move(graph), std::move(gradient), std::move(dissipation)),
                                 Step<ThisBody>(fixed_conditions<D>(scene, cloud),
@@ -125,18 +122,10 @@ auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const 
       Jst<D>{build_laplacian<D>(cloud.X, cloud.V, graph), scene.jst4 * smallest * smallest * smallest});
 }
 
-template <int D, class Use>
-auto with_law(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
-  const Hencky hencky{ElasticConstants::from(scene.material.young, scene.material.poisson)};
-  if (!scene.material.plasticity)
-    return with_dissipation<D>(scene, cloud, hencky, use);
-  const LinearHardening hardening{scene.material.plasticity->yield, scene.material.plasticity->hardening};
-  return with_dissipation<D>(scene, cloud, VonMises<LinearHardening>{hencky, hardening}, use);
-}
-
-template <class Use>
-auto with_assembly(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
-  return cloud.dimension == 3 ? with_law<3>(scene, cloud, use) : with_law<2>(scene, cloud, use);
+template <class L, class Use>
+auto with_dimension(const SceneSpec& scene, const ParticleCloud& cloud, const L& law, Use&& use) {
+  return cloud.dimension == 3 ? with_dissipation<3>(scene, cloud, law, use)
+                              : with_dissipation<2>(scene, cloud, law, use);
 }
 
 /// Memory of the arrays a step touches, bytes a particle.

@@ -4,6 +4,7 @@
 #include "core/frame.hpp"
 #include "core/parallel.hpp"
 #include "solver/physics/body.hpp"
+#include "solver/physics/law.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"
@@ -38,7 +39,7 @@ class FrameArrays {
       const Mat3 sigma = cauchy(body.law.piola(strain, memory), strain.F, strain.J);
       pressure_[a] = tessera::solver::pressure(sigma);
       von_mises_[a] = tessera::solver::von_mises(sigma);
-      plastic_strain_[a] = body.law.equivalent_plastic_strain(body.history[a]);
+      plastic_strain_[a] = equivalent_plastic_strain(body.law, body.history[a]);
       jacobian_[a] = strain.J;
       id_[a] = static_cast<double>(a);
       const double components[6] = {sigma(0, 0), sigma(1, 1), sigma(2, 2),
@@ -103,7 +104,7 @@ Energies energies(const Body& body, const Step<Body>& ledger) {
   const Sums sums = sum(body.size(), Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
     return body.V[a] * Sums(body.U.p[a].squaredNorm() / (2 * body.density),
                             body.law.energy(body.strain(a), body.history[a]),
-                            body.law.plastic_work(body.history[a]));
+                            plastic_work(body.law, body.history[a]));
   });
   return {sums[0], sums[1], sums[2], ledger.dissipated(), ledger.external(), 0};
 }

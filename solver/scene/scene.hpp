@@ -23,11 +23,14 @@ struct PlasticitySpec {
 };
 
 struct MaterialSpec {
-  std::string law = "hencky";
-  double density = 0; ///< kg/m^3
-  double young = 0;   ///< Pa
+  std::string law = "hencky"; ///< of the catalogue, which says which of the constants below it goes by
+  double density = 0;         ///< kg/m^3
+  double young = 0;           ///< Pa
   double poisson = 0;
   std::optional<PlasticitySpec> plasticity;
+  double c1 = 0, c2 = 0;             ///< of mooney_rivlin, Pa
+  std::vector<double> mu{}, alpha{}; ///< of ogden, one a term; Pa, -
+  double bulk = 0;                   ///< of mooney_rivlin and ogden, Pa
 };
 
 /// v(X) at time zero on a set ("all": every particle); later entries overwrite earlier ones.

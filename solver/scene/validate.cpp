@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "solver/physics/materials/catalogue.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -23,23 +24,62 @@ void one_of(const std::string& value, const std::vector<std::string>& allowed, c
                                fmt::join(allowed, ", ")));
 }
 
+using Where = std::function<std::string(const std::string&)>;
+
+void require_number(const std::string& key, double value, bool good, const std::string& range,
+                    const Where& where) {
+  require(std::isfinite(value) && good, fmt::format("{} is {:g}", key, value), where(key),
+          "it must be " + range);
+}
+
+/// The constants the law goes by; the others are not looked at.
+void validate_constants(const MaterialSpec& m, const Where& where) {
+  const auto positive = [&](const std::string& key, double value) {
+    require_number(key, value, value > 0, "positive (Pa)", where);
+  };
+  if (m.law == "mooney_rivlin") {
+    for (const auto& [key, value] : {std::pair{"material.c1", m.c1}, {"material.c2", m.c2}})
+      require_number(key, value, value >= 0, "zero or positive (Pa)", where);
+    require(m.c1 + m.c2 > 0, "material.c1 and material.c2 are both zero", where("material.c1"),
+            "the shear modulus 2 (c1 + c2) must be positive");
+    positive("material.bulk", m.bulk);
+  } else if (m.law == "ogden") {
+    require(!m.mu.empty() && m.mu.size() == m.alpha.size(),
+            fmt::format("material.mu lists {} and material.alpha {} numbers", m.mu.size(), m.alpha.size()),
+            where("material.mu"), "give both one number a term");
+    for (std::size_t p = 0; p < m.mu.size(); ++p) {
+      const double product = m.mu[p] * m.alpha[p];
+      require(std::isfinite(product) && product > 0,
+              fmt::format("material.mu and material.alpha are {:g} and {:g} in term {}", m.mu[p], m.alpha[p],
+                          p + 1),
+              where(fmt::format("material.mu.{}", p)),
+              "their product must be positive: both above zero or both below");
+    }
+    positive("material.bulk", m.bulk);
+  } else {
+    positive("material.young", m.young);
+    require_number("material.poisson", m.poisson, m.poisson > -1 && m.poisson < 0.5,
+                   "above -1 and below 0.5: at 0.5 pressure waves are infinitely fast", where);
+  }
+}
+
 } // namespace
 
 void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where) {
   const auto number = [&](const std::string& key, double value, bool good, const std::string& range) {
-    require(std::isfinite(value) && good, fmt::format("{} is {:g}", key, value), where(key),
-            "it must be " + range);
+    require_number(key, value, good, range, where);
   };
   const auto name = [&](const std::string& key, const std::string& value,
                         const std::vector<std::string>& allowed) { one_of(value, allowed, key, where(key)); };
 
   const MaterialSpec& m = scene.material;
-  name("material.law", m.law, {"hencky"});
+  name("material.law", m.law, law_names());
   number("material.density", m.density, m.density > 0, "positive (kg/m^3)");
-  number("material.young", m.young, m.young > 0, "positive (Pa)");
-  number("material.poisson", m.poisson, m.poisson > -1 && m.poisson < 0.5,
-         "above -1 and below 0.5: at 0.5 pressure waves are infinitely fast");
+  validate_constants(m, where);
   if (m.plasticity) {
+    require(find_law(m.law)->plasticity,
+            fmt::format("material.plasticity stands beside the law \"{}\", which is elastic only", m.law),
+            where("material.plasticity"), "use law = \"hencky\", or leave the table out");
     number("material.plasticity.yield", m.plasticity->yield, m.plasticity->yield > 0, "positive (Pa)");
     number("material.plasticity.hardening", m.plasticity->hardening, m.plasticity->hardening >= 0,
            "zero or positive (Pa)");

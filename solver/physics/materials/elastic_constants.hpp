@@ -1,4 +1,4 @@
-/// Moduli of isotropic elasticity from Young's modulus and Poisson's ratio.
+/// Moduli of isotropic linear elasticity.
 #pragma once
 
 namespace tessera::solver {
@@ -13,6 +13,13 @@ struct ElasticConstants {
     const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson));
     return {mu, lambda, lambda + 2 * mu / 3};
   }
+
+  static constexpr ElasticConstants from_shear_and_bulk(double mu, double kappa) {
+    return {mu, kappa - 2 * mu / 3, kappa};
+  }
+
+  constexpr double young() const { return 9 * kappa * mu / (3 * kappa + mu); } ///< Pa
+  constexpr double poisson() const { return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu)); }
 
   /// Modulus of pressure waves, lambda + 2 mu, Pa.
   constexpr double pressure_wave_modulus() const { return lambda + 2 * mu; }

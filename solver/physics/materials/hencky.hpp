@@ -43,8 +43,7 @@ struct Hencky {
     return energy_from(log_strain.deviator, strain.J);
   }
 
-  static double equivalent_plastic_strain(const History&) { return 0; }
-  static double plastic_work(const History&) { return 0; }
+  ElasticConstants linearised() const { return elastic; }
 
   /// P from principal deviatoric Kirchhoff stresses tau' (Pa) along `axes`.
   Mat3 piola_from(const Vec3& tau_deviator, const Mat3& axes, const Strain& strain) const {

@@ -48,6 +48,8 @@ struct VonMises {
     return hencky.energy_from(elastic.deviator, strain.J);
   }
 
+  ElasticConstants linearised() const { return hencky.linearised(); }
+
   static double equivalent_plastic_strain(const History& history) {
     return history.equivalent_plastic_strain;
   }

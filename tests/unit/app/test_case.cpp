@@ -53,6 +53,31 @@ TEST(Case, OptionalPartsArrive) {
   EXPECT_EQ(c.scene.walls[0].restitution, 0.5);
 }
 
+constexpr const char* hencky_table = "law = \"hencky\"\ndensity = 8930\nyoung = 117e9\npoisson = 0.35";
+
+TEST(Case, EachLawReadsItsOwnConstants) {
+  const auto material = [](const std::string& lines) {
+    return read_text_case(with(hencky_table, lines)).scene.material;
+  };
+  for (const char* law : {"linear_elastic", "saint_venant_kirchhoff", "neo_hookean"}) {
+    const auto m =
+        material("law = \"" + std::string(law) + "\"\ndensity = 1100\nyoung = 17e6\npoisson = 0.3");
+    EXPECT_EQ(m.law, law);
+    EXPECT_EQ(m.young, 17e6);
+    EXPECT_EQ(m.poisson, 0.3);
+  }
+  for (const char* constants : {"c1 = 2e6\nc2 = 0.5e6", "mu1 = 4e6\nmu2 = -1e6"}) {
+    const auto m = material("law = \"mooney_rivlin\"\ndensity = 1100\nbulk = 1e9\n" + std::string(constants));
+    EXPECT_EQ(m.c1, 2e6);
+    EXPECT_EQ(m.c2, 0.5e6);
+    EXPECT_EQ(m.bulk, 1e9);
+  }
+  const auto ogden = material(
+      "law = \"ogden\"\ndensity = 1100\nmu = [0.63e6, 1200, -1e4]\nalpha = [1.3, 5, -2]\nbulk = 1e9");
+  EXPECT_EQ(ogden.mu, (std::vector{0.63e6, 1200.0, -1e4}));
+  EXPECT_EQ(ogden.alpha, (std::vector{1.3, 5.0, -2.0}));
+}
+
 /// A case of particles alone, from the text of its two tables.
 Case cloud_case(const std::string& geometry, const std::string& particles) {
   return read_text_case("[geometry]\n" + geometry + "\n[particles]\n" + particles + "\n");

@@ -46,7 +46,54 @@ TEST(Validate, NamesKeyValuePlaceAndRange) {
             "waves are infinitely fast");
   EXPECT_EQ(message([](SceneSpec& s) { s.material.law = "henky"; }),
             "material.law is \"henky\", case.toml:material.law, did you mean \"hencky\"? this version "
-            "offers: hencky");
+            "offers: hencky, linear_elastic, saint_venant_kirchhoff, neo_hookean, mooney_rivlin, ogden");
+}
+
+TEST(Validate, LooksAtTheConstantsOfTheLawOnly) {
+  const auto elastic = [](const char* law) {
+    return [law](SceneSpec& s) {
+      s.material = {law, 1100, 0, 0, std::nullopt, 1e6, 0, {0.6e6, -0.01e6}, {1.3, -2}, 1e9};
+    };
+  };
+  EXPECT_EQ(message(elastic("mooney_rivlin")), "");
+  EXPECT_EQ(message(elastic("ogden")), "");
+  EXPECT_EQ(message(elastic("neo_hookean")),
+            "material.young is 0, case.toml:material.young, it must be positive (Pa)");
+}
+
+TEST(Validate, RefusesConstantsNoRubberHas) {
+  const auto rubber = [](auto&& spoil) {
+    return message([&](SceneSpec& s) {
+      s.material = {"ogden", 1100, 0, 0, std::nullopt, 1e6, 0.5e6, {0.6e6, -0.01e6}, {1.3, -2}, 1e9};
+      spoil(s.material);
+    });
+  };
+  EXPECT_EQ(rubber([](MaterialSpec& m) { m.mu.push_back(1); }),
+            "material.mu lists 3 and material.alpha 2 numbers, case.toml:material.mu, give both one number a "
+            "term");
+  EXPECT_EQ(
+      rubber([](MaterialSpec& m) { m.alpha[1] = 2; }),
+      "material.mu and material.alpha are -10000 and 2 in term 2, case.toml:material.mu.1, their product "
+      "must be positive: both above zero or both below");
+  EXPECT_NE(rubber([](MaterialSpec& m) { m.alpha[0] = 0; }), "");
+  EXPECT_NE(rubber([](MaterialSpec& m) { m.mu.clear(), m.alpha.clear(); }), "");
+  EXPECT_NE(rubber([](MaterialSpec& m) { m.bulk = 0; }), "");
+  const auto mooney = [&](auto&& spoil) {
+    return rubber([&](MaterialSpec& m) {
+      m.law = "mooney_rivlin";
+      spoil(m);
+    });
+  };
+  EXPECT_EQ(mooney([](MaterialSpec&) {}), "");
+  EXPECT_NE(mooney([](MaterialSpec& m) { m.c2 = -1; }), "");
+  EXPECT_NE(mooney([](MaterialSpec& m) { m.c1 = m.c2 = 0; }), "");
+  EXPECT_NE(mooney([](MaterialSpec& m) { m.bulk = std::nan(""); }), "");
+}
+
+TEST(Validate, OnlyHenckyFlows) {
+  EXPECT_EQ(message([](SceneSpec& s) { s.material.law = "neo_hookean"; }),
+            "material.plasticity stands beside the law \"neo_hookean\", which is elastic only, "
+            "case.toml:material.plasticity, use law = \"hencky\", or leave the table out");
 }
 
 TEST(Validate, RefusesImpossibleValues) {

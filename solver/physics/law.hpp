@@ -1,0 +1,49 @@
+/// What a constitutive law offers to a body.
+#pragma once
+
+#include "solver/physics/materials/elastic_constants.hpp"
+#include "solver/physics/strain.hpp"
+
+#include <concepts>
+
+namespace tessera::solver {
+
+/// An aggregate of constants with
+///   History                         what a particle remembers; empty for elastic laws
+///   piola(strain, history)          first Piola-Kirchhoff stress, Pa; advances the history
+///   energy(strain, history)         stored energy, J/m^3, with piola its derivative at a fixed history
+///   linearised()                    moduli of small strains about the undeformed state
+/// The area and volume maps come as fields of their own: a law takes them from the strain, not from F.
+template <class L>
+concept ConstitutiveLaw = requires(const L law, const Strain& strain, typename L::History& history) {
+  { law.piola(strain, history) } -> std::same_as<Mat3>;
+  { law.energy(strain, history) } -> std::same_as<double>;
+  { law.linearised() } -> std::same_as<ElasticConstants>;
+};
+
+/// A law that also flows: equivalent_plastic_strain(history) and plastic_work(history), J/m^3.
+template <class L>
+concept PlasticLaw = ConstitutiveLaw<L> && requires(const L law, const typename L::History& history) {
+  { law.equivalent_plastic_strain(history) } -> std::same_as<double>;
+  { law.plastic_work(history) } -> std::same_as<double>;
+};
+
+/// Zero for elastic laws.
+template <ConstitutiveLaw L>
+double equivalent_plastic_strain(const L& law, const typename L::History& history) {
+  if constexpr (PlasticLaw<L>)
+    return law.equivalent_plastic_strain(history);
+  else
+    return 0;
+}
+
+/// Work spent on plastic flow so far, J/m^3; zero for elastic laws.
+template <ConstitutiveLaw L>
+double plastic_work(const L& law, const typename L::History& history) {
+  if constexpr (PlasticLaw<L>)
+    return law.plastic_work(history);
+  else
+    return 0;
+}
+
+} // namespace tessera::solver

@@ -1,0 +1,10 @@
+#include "solver/physics/materials/linear_elastic.hpp"
+#include "solver/scene/run_law_definition.hpp"
+
+namespace tessera::solver {
+
+template Summary run_law(const LinearElastic&, const SceneSpec&, const ParticleCloud&, const Outputs&,
+                         Progress&);
+template Forecast forecast_law(const LinearElastic&, const SceneSpec&, const ParticleCloud&);
+
+} // namespace tessera::solver

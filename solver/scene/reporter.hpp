@@ -1,0 +1,146 @@
+/// Frames, history rows and the summary of a run.
+#pragma once
+
+#include "core/history_columns.hpp"
+#include "solver/scene/assemble.hpp"
+#include "solver/scene/observer.hpp"
+#include "solver/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tessera::solver {
+
+/// Hands out frames and history rows as their times come; output never changes a step's length.
+template <class Body>
+class Reporter {
+ public:
+  Reporter(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
+           const Assembly<Body>& assembly)
+      : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly) {
+    for (const Probe& probe : scene.probes)
+      probes_.emplace_back(probe, cloud);
+    if (outputs.history_columns)
+      outputs.history_columns(columns());
+    const Momenta start = momenta(assembly.body);
+    const Vec3 centre = mean_position();
+    momenta_start_ = start;
+    const auto& body = assembly.body;
+    linear_scale_ = sum(body.size(), 0.0, [&](std::int64_t a) { return body.V[a] * body.U.p[a].norm(); });
+    angular_scale_ = sum(body.size(), 0.0, [&](std::int64_t a) {
+      return body.V[a] * body.U.p[a].norm() * (cloud.X[a] - centre).norm();
+    });
+    total_start_ = total(energies(body, assembly.step));
+    report(0, 0, 0);
+    frame(0, 0);
+  }
+
+  /// After a step: whatever is due.
+  void after_step(double time, std::int64_t step, double dt) {
+    if (time >= history_due_) {
+      report(time, step, dt);
+      history_due_ = next(time, scene_.history_rows);
+    }
+    if (time >= frame_due_) {
+      frame(time, step);
+      frame_due_ = next(time, scene_.frames);
+    }
+  }
+
+  /// The state as it is now, whether due or not.
+  void last(double time, std::int64_t step, double dt) {
+    if (step != last_row_)
+      report(time, step, dt);
+    if (step != last_frame_)
+      frame(time, step);
+  }
+
+  void summarise(Summary& summary) {
+    summary.extremes = extremes_;
+    summary.energy = energy_;
+    summary.energy.balance_error = worst_balance_;
+    arrays_.fill(assembly_.body, cloud_);
+    arrays_.extent(cloud_, summary.extent_min, summary.extent_max);
+    const Momenta now = momenta(assembly_.body);
+    const auto relative = [](double change, double scale) { return scale > 0 ? change / scale : change; };
+    summary.linear_drift = relative((now.linear - momenta_start_.linear).norm(), linear_scale_);
+    summary.angular_drift = relative((now.angular - momenta_start_.angular).norm(), angular_scale_);
+    for (std::size_t i = 0; i < probes_.size(); ++i)
+      summary.probes.emplace_back(column_name(scene_.probes[i]),
+                                  probes_[i].read(arrays_.probe_fields(cloud_)));
+  }
+
+ private:
+  std::vector<std::string> columns() const {
+    std::vector<std::string> names(history_columns.begin(), history_columns.end());
+    for (const Probe& probe : scene_.probes)
+      names.push_back(column_name(probe));
+    return names;
+  }
+
+  Vec3 mean_position() const {
+    return sum(cloud_.size(), Vec3(Vec3::Zero()), [&](std::int64_t a) -> Vec3 { return cloud_.X[a]; }) /
+           static_cast<double>(cloud_.size());
+  }
+
+  double next(double time, int pieces) const {
+    const double interval = scene_.end_time / pieces;
+    // Half a millionth of an interval: a due time reached but for round-off counts as reached.
+    return (std::floor(time / interval + 0.5e-6) + 1) * interval * (1 - 1e-12);
+  }
+
+  void report(double time, std::int64_t step, double dt) {
+    last_row_ = step;
+    energy_ = energies(assembly_.body, assembly_.step);
+    largest_ = std::max(largest_, energy_.kinetic + energy_.internal + energy_.plastic);
+    energy_.balance_error = largest_ > 0 ? std::abs(total(energy_) - total_start_) / largest_ : 0;
+    worst_balance_ = std::max(worst_balance_, energy_.balance_error);
+    arrays_.fill(assembly_.body, cloud_);
+    arrays_.widen(extremes_);
+    if (!outputs_.history_row)
+      return;
+    const Momenta m = momenta(assembly_.body);
+    std::vector<double> row = {time,
+                               static_cast<double>(step),
+                               dt,
+                               energy_.kinetic,
+                               energy_.internal,
+                               energy_.plastic,
+                               energy_.dissipated,
+                               energy_.external,
+                               total(energy_),
+                               energy_.balance_error};
+    row.insert(row.end(), m.linear.begin(), m.linear.end());
+    row.insert(row.end(), m.angular.begin(), m.angular.end());
+    for (const ProbeReader& probe : probes_)
+      row.push_back(probe.read(arrays_.probe_fields(cloud_)));
+    outputs_.history_row(row);
+  }
+
+  void frame(double time, std::int64_t step) {
+    last_frame_ = step;
+    if (!outputs_.frame)
+      return;
+    arrays_.fill(assembly_.body, cloud_);
+    outputs_.frame(arrays_.frame(time, step, cloud_));
+  }
+
+  const SceneSpec& scene_;
+  const ParticleCloud& cloud_;
+  const Outputs& outputs_;
+  const Assembly<Body>& assembly_;
+  std::vector<ProbeReader> probes_;
+  FrameArrays arrays_;
+  Momenta momenta_start_;
+  double linear_scale_ = 0, angular_scale_ = 0;
+  double total_start_ = 0, largest_ = 0;
+  Energies energy_;
+  double worst_balance_ = 0;
+  Extremes extremes_;
+  double history_due_ = next(0, scene_.history_rows), frame_due_ = next(0, scene_.frames);
+  std::int64_t last_row_ = -1, last_frame_ = -1;
+};
+
+} // namespace tessera::solver
