@@ -101,7 +101,7 @@ template <int D, class Law, class Use>
 auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const Law& law, Use&& use) {
   Neighbours graph = build_graph<D>(scene, cloud);
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
-  const std::vector<double> nearest = distance_to_nearest(cloud.X, 1);
+  const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);
   const double smallest = *std::min_element(nearest.begin(), nearest.end());
   const auto elastic = ElasticConstants::from(scene.material.young, scene.material.poisson);
   const double wave_speed = std::sqrt(elastic.pressure_wave_modulus() / scene.material.density);
