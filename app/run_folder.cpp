@@ -37,6 +37,16 @@ void open_folder(const fs::path& folder) {
   io::make_output_folder(folder);
 }
 
+RunFolder::RunFolder(fs::path folder) : path_(std::move(folder)), existed_(fs::exists(path_)) {
+  open_folder(path_);
+}
+
+RunFolder::~RunFolder() {
+  std::error_code failed;
+  if (!existed_)
+    fs::remove(path_, failed); // only where it is empty
+}
+
 void store_case(const Case& the_case, const std::vector<std::string>& overrides, const fs::path& folder) {
   std::string header = fmt::format("{} {} from {}", signature, TESSERA_VERSION, the_case.path.string());
   for (const std::string& assignment : overrides)

@@ -14,6 +14,21 @@ std::filesystem::path default_folder(const Case& the_case);
 /// folder already holds files but none of ours.
 void open_folder(const std::filesystem::path& folder);
 
+/// The folder of a run to come: opened at once, so that it is known to be writable before any work is done.
+/// One that was made for it and is still empty in the end (the input was refused) goes again.
+class RunFolder {
+ public:
+  explicit RunFolder(std::filesystem::path folder);
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool existed_;
+};
+
 /// Stores the case with its overrides, so that the folder alone is enough to repeat or redraw the run.
 void store_case(const Case& the_case, const std::vector<std::string>& overrides,
                 const std::filesystem::path& folder);

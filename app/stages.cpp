@@ -52,17 +52,11 @@ void require_sets(const Case& the_case, const ParticleCloud& cloud) {
     require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
 }
 
-fs::path begin_folder(const Case& the_case, const Options& options, Console& console) {
-  const fs::path folder = options.output.empty() ? default_folder(the_case) : options.output;
-  open_folder(folder);
-  console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
-  remove_all_results(folder);
-  store_case(the_case, options.overrides, folder);
-  return folder;
+fs::path results_folder(const Case& the_case, const Options& options) {
+  return options.output.empty() ? default_folder(the_case) : options.output;
 }
 
-preprocess::Prepared prepare_particles(const Case& the_case, const fs::path& folder, bool cells,
-                                       Console& console) {
+preprocess::Prepared prepare_particles(const Case& the_case, bool cells, Console& console) {
   const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
   stop_if_interrupted("import");
   preprocess::ParticleRequest request = the_case.particles;
@@ -72,12 +66,17 @@ preprocess::Prepared prepare_particles(const Case& the_case, const fs::path& fol
   preprocess::Prepared prepared = preprocess::prepare(domain, request, console.progress());
   require_sets(the_case, prepared.cloud);
   stop_if_interrupted("preparation");
+  return prepared;
+}
 
+void begin_results(const Case& the_case, const Options& options, const preprocess::Prepared& prepared,
+                   const fs::path& folder, bool cells) {
+  remove_all_results(folder);
+  store_case(the_case, options.overrides, folder);
   io::write_cloud(prepared.cloud, folder / "cloud.vtp");
   if (cells)
     io::write_cells(prepared.cells, prepared.cloud, folder / "cells.vtu");
   io::write_text(folder / "quality.json", preprocess::to_json(prepared.quality));
-  return prepared;
 }
 
 Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const fs::path& folder,

@@ -17,13 +17,17 @@ void require_cad_file(const Case& the_case);
 /// InputError naming the key of the case when a set it speaks of is not one of the cloud's.
 void require_sets(const Case& the_case, const ParticleCloud& cloud);
 
-/// The folder a new run of the case goes to, emptied of earlier results, with the case stored in it.
-std::filesystem::path begin_folder(const Case& the_case, const Options& options, Console& console);
+/// Where the case's results go, for begin_results() once there are any.
+std::filesystem::path results_folder(const Case& the_case, const Options& options);
 
-/// Imports and fills the body: cloud.vtp, quality.json and, where `cells`, cells.vtu. Hands out the cells too
-/// where they are not too many to be drawn.
-preprocess::Prepared prepare_particles(const Case& the_case, const std::filesystem::path& folder, bool cells,
-                                       Console& console);
+/// Imports and fills the body. Writes nothing: what a refused case would have replaced is still there. With
+/// the cells where they are asked for, and where they are not too many to be drawn.
+preprocess::Prepared prepare_particles(const Case& the_case, bool cells, Console& console);
+
+/// Empties the folder of earlier results and stores the case and its particles in it: cloud.vtp, quality.json
+/// and, where `cells`, cells.vtu.
+void begin_results(const Case& the_case, const Options& options, const preprocess::Prepared& prepared,
+                   const std::filesystem::path& folder, bool cells);
 
 /// Runs the solver: history.csv, fields.pvd, fields/, summary.json. Returns the text of summary.json.
 /// A run that fails or is interrupted leaves its frames and history, no summary, and a RunError that says so.

@@ -70,7 +70,6 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
 }
 
 std::string outlook_json(const Case& the_case, const Outlook& o) {
-  const solver::Forecast& f = o.forecast;
   Json json;
   json["case"] = the_case.name;
   json["title"] = the_case.title;
@@ -85,20 +84,22 @@ std::string outlook_json(const Case& the_case, const Outlook& o) {
   json["particles"] = o.quality.particles;
   json["spacing"] = o.spacing;
   json["sets"] = o.sets;
-  json["mass"] = f.mass;
-  json["wave_speed"] = f.wave_speed;
-  json["dt"] = f.dt;
-  json["steps"] = f.steps;
-  json["neighbours_mean"] = f.neighbours_mean;
-  json["bytes_per_particle"] = f.bytes_per_particle;
-  json["seconds"] = f.seconds;
-  json["modelled"] = f.modelled;
-  json["left_out"] = f.left_out;
+  if (o.forecast) {
+    const solver::Forecast& f = *o.forecast;
+    json["mass"] = f.mass;
+    json["wave_speed"] = f.wave_speed;
+    json["dt"] = f.dt;
+    json["steps"] = f.steps;
+    json["neighbours_mean"] = f.neighbours_mean;
+    json["bytes_per_particle"] = f.bytes_per_particle;
+    json["seconds"] = f.seconds;
+    json["modelled"] = f.modelled;
+    json["left_out"] = f.left_out;
+  }
   return print(json);
 }
 
 std::string outlook_text(const Case& the_case, const Outlook& o) {
-  const solver::Forecast& f = o.forecast;
   const Vec3 size = o.upper - o.lower;
   std::string text = the_case.title + "\n";
   const auto line = [&](const char* what, const std::string& value) {
@@ -112,9 +113,12 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
                              o.quality.cad_volume));
   else
     line("volume", fmt::format("{:.6g} m^3 (CAD {:.6g} m^3)", o.quality.domain_volume, o.quality.cad_volume));
-  line("particles", fmt::format("{}, spacing {:.4g} m, {:.1f} neighbours each", o.quality.particles,
-                                o.spacing, f.neighbours_mean));
+  line("particles", fmt::format("{}, spacing {:.4g} m", o.quality.particles, o.spacing));
   line("sets", o.sets.empty() ? "none" : words(o.sets));
+  if (!o.forecast)
+    return text;
+  const solver::Forecast& f = *o.forecast;
+  line("neighbours", fmt::format("{:.1f} each", f.neighbours_mean));
   line("modelled", words(f.modelled));
   line("left out", words(f.left_out));
   line("mass", fmt::format("{:.6g} kg", f.mass));

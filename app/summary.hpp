@@ -3,6 +3,7 @@
 
 #include "app/case/case.hpp"
 
+#include <optional>
 #include <string>
 
 namespace tessera::app {
@@ -16,7 +17,7 @@ struct Outlook {
   preprocess::Quality quality;
   double spacing = 0; ///< m
   std::vector<std::string> sets;
-  solver::Forecast forecast;
+  std::optional<solver::Forecast> forecast; ///< none for a case of particles alone
 };
 std::string outlook_json(const Case& the_case, const Outlook& outlook);
 std::string outlook_text(const Case& the_case, const Outlook& outlook);

@@ -74,9 +74,10 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   const TemporaryFolder scratch;
   const fs::path file = scratch.path() / "job.json";
   io::write_text(file, to_json(job));
-  // Asked to end before it is killed, so that xvfb-run stops its server.
+  // Without -noreset the server starts anew whenever a picture's window, its only client, is closed, and the
+  // next window may find nobody. Asked to end before it is killed, so that xvfb-run stops its server.
   const ChildEnd end = run_child({xvfb.string(), "-n", std::to_string(display_number()), "-a", "-s",
-                                  "-screen 0 1600x1200x24", program.string(), file.string()},
+                                  "-screen 0 1600x1200x24 -noreset", program.string(), file.string()},
                                  scratch.path(), {time_limit, 0, 1.0});
   if (end.how == ChildEnd::How::interrupted)
     stop_if_interrupted("drawing");

@@ -13,6 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using preprocess::ShapeKind;
 
+constexpr Range memory_size{[](double x) { return x > 0 && x <= 1e6; },
+                            "greater than 0 and at most 1e6 (GiB)"};
+
 /// geometry.shape and the lengths that go with it.
 preprocess::ShapeSpec read_shape(Table& geometry, int dimension) {
   std::vector<std::string> names;
@@ -69,6 +72,8 @@ preprocess::GeometrySource read_geometry(Table geometry, const fs::path& case_fo
   }
   source.tolerance = geometry.number_or("tolerance", source.tolerance, positive);
   source.mesh_size = geometry.number_or("mesh_size", source.mesh_size, positive);
+  source.seconds = geometry.number_or("time_limit", source.seconds, positive);
+  source.bytes = static_cast<std::uint64_t>(geometry.number_or("memory_limit", 4, memory_size) * 0x1p30);
   if (geometry.has("shape") && geometry.has("file"))
     geometry.refuse("shape", "geometry has both file and shape", "give one of them");
   geometry.finish();

@@ -9,7 +9,6 @@ namespace tessera::app {
 void check(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
-  the_case.require_scene();
   require_cad_file(the_case);
   const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
   stop_if_interrupted("import");
@@ -24,7 +23,8 @@ void check(const Options& options) {
   outlook.spacing = prepared.cloud.spacing;
   for (const ParticleSet& set : prepared.cloud.sets)
     outlook.sets.push_back(set.name);
-  outlook.forecast = solver::forecast(the_case.scene, prepared.cloud);
+  if (the_case.has_scene)
+    outlook.forecast = solver::forecast(the_case.scene, prepared.cloud);
   console.result(outlook_text(the_case, outlook), outlook_json(the_case, outlook));
 }
 

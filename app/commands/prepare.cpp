@@ -1,4 +1,5 @@
 #include "app/commands/commands.hpp"
+#include "app/run_folder.hpp"
 #include "app/stages.hpp"
 #include "postprocess/report.hpp"
 
@@ -10,8 +11,11 @@ void prepare(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
   require_cad_file(the_case);
-  const std::filesystem::path folder = begin_folder(the_case, options, console);
-  const preprocess::Prepared prepared = prepare_particles(the_case, folder, options.cells, console);
+  const RunFolder place(results_folder(the_case, options));
+  const std::filesystem::path& folder = place.path();
+  console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
+  const preprocess::Prepared prepared = prepare_particles(the_case, options.cells, console);
+  begin_results(the_case, options, prepared, folder, options.cells);
   const auto drawn = post::write_cloud_report(folder, console.progress(), the_case.title, &prepared.cells);
   const preprocess::Quality& q = prepared.quality;
 

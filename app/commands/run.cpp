@@ -1,6 +1,9 @@
 #include "app/commands/commands.hpp"
+#include "app/run_folder.hpp"
 #include "app/stages.hpp"
 #include "postprocess/picture.hpp"
+
+#include <fmt/format.h>
 
 namespace tessera::app {
 
@@ -9,8 +12,11 @@ void run(const Options& options) {
   const Case the_case = read_case(options.case_file, options.overrides);
   the_case.require_scene();
   require_cad_file(the_case);
-  const std::filesystem::path folder = begin_folder(the_case, options, console);
-  const preprocess::Prepared prepared = prepare_particles(the_case, folder, options.cells, console);
+  const RunFolder place(results_folder(the_case, options));
+  const std::filesystem::path& folder = place.path();
+  console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
+  const preprocess::Prepared prepared = prepare_particles(the_case, options.cells, console);
+  begin_results(the_case, options, prepared, folder, options.cells);
   post::draw_cloud(folder, console.progress(), &prepared.cells);
   const Solution solution = solve_particles(the_case, prepared.cloud, folder, console);
   const auto drawn = draw_results(the_case, folder, console);

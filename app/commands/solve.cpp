@@ -12,7 +12,7 @@ void solve(const Options& options) {
   Console console(options);
   const Case the_case = read_case(options.case_file, options.overrides);
   the_case.require_scene();
-  const std::filesystem::path folder = options.output.empty() ? default_folder(the_case) : options.output;
+  const std::filesystem::path folder = results_folder(the_case, options);
 
   // Everything that can be wrong with the input is found before the folder is touched.
   const bool named = !options.cloud.empty();
@@ -24,7 +24,7 @@ void solve(const Options& options) {
     require_cad_file(the_case);
   if (cloud)
     require_sets(the_case, *cloud);
-  open_folder(folder);
+  const RunFolder place(folder);
   console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
 
   if (cloud) {
@@ -35,9 +35,8 @@ void solve(const Options& options) {
     if (named)
       io::write_cloud(*cloud, folder / "cloud.vtp");
   } else {
-    remove_all_results(folder);
-    store_case(the_case, options.overrides, folder);
-    preprocess::Prepared prepared = prepare_particles(the_case, folder, false, console);
+    preprocess::Prepared prepared = prepare_particles(the_case, false, console);
+    begin_results(the_case, options, prepared, folder, false);
     post::draw_cloud(folder, console.progress(), &prepared.cells);
     cloud = std::move(prepared.cloud);
   }

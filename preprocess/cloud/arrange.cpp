@@ -114,6 +114,8 @@ void Arranged::keep(const std::vector<std::int32_t>& order) {
 
 void Arranged::insert(const Vec3& where, const TetBody& body) {
   X.push_back(body.scaling.out(where));
+  if (body.domain->dimension == 2)
+    X.back().z() = 0;
   scaled.push_back(body.scaling.in(X.back()));
   place.push_back({static_cast<std::uint8_t>(body.domain->dimension), -1});
   graph_from = scaled; // no lattice any more

@@ -53,8 +53,8 @@ void check_request(const Domain& domain, const ParticleRequest& request) {
           fmt::format("about {:.3g} particles would need {:.3g} GB to prepare", particles,
                       particles * bytes_per_particle / 1e9),
           "particles",
-          fmt::format("choose a spacing above {:.3g} m",
-                      std::pow(domain.volume / most_particles, 1.0 / domain.dimension)));
+          fmt::format("choose a spacing above {:.3g} m or a count below {:g}",
+                      std::pow(domain.volume / most_particles, 1.0 / domain.dimension), most_particles));
   for (std::size_t s = 0; s < request.sets.size(); ++s) {
     const auto same = [&](const auto& other) { return other.name == request.sets[s].name; };
     require(!request.sets[s].name.empty(), "a set has no name", "sets", "name it");
@@ -110,9 +110,32 @@ void check_volume(const Quality& quality) {
                    "check the mesh for overlapping or inverted parts and remesh the body");
 }
 
+/// What a user should hear of: parts of the body finer than the particles, and a count that was missed.
+void note_coarse_parts(const ParticleCloud& cloud, const Quality& quality, const ParticleRequest& request,
+                       Progress& progress) {
+  constexpr double large_correction = 0.1, large_cell = 2.5;
+  if (request.arrangement == Arrangement::lattice) {
+    const double cell = large_cell * std::pow(cloud.spacing, cloud.dimension);
+    const auto large = std::count_if(cloud.V.begin(), cloud.V.end(), [&](double V) { return V > cell; });
+    if (large > 0)
+      progress.note(
+          fmt::format("note: {} particles own more than {:g} lattice cells: parts of the body have no "
+                      "particles of their own; choose a smaller spacing",
+                      large, large_cell));
+  }
+  if (quality.area_correction > large_correction)
+    progress.note(
+        fmt::format("note: the particles are coarse for this boundary: {:.0f} % of its areas had to "
+                    "change to balance them; choose a smaller spacing",
+                    100 * quality.area_correction));
+  const auto wanted = static_cast<double>(request.count), got = static_cast<double>(cloud.size());
+  if (request.count > 0 && std::abs(got - wanted) > 0.02 * wanted)
+    progress.note(fmt::format("note: {} particles where {} were asked for, {} of them inserted beside slots",
+                              cloud.size(), request.count, quality.inserted_particles));
+}
+
 struct Tessellated {
   CellMeasures measures;
-  DelaunayGraph graph;
   std::int64_t inserted = 0; ///< particles
 };
 
@@ -126,11 +149,11 @@ Tessellated tessellate(const TetBody& body, const ParticleRequest& request, Arra
   progress.begin("Voronoi cells", most_rounds);
   for (int round = 1;; ++round) {
     particles.keep(hilbert_order(particles.scaled));
-    result.graph = request.backend == Backend::voro ? voro_neighbours(body, particles.scaled)
-                                                    : delaunay_graph(particles.graph_from);
+    const DelaunayGraph graph = request.backend == Backend::voro ? voro_neighbours(body, particles.scaled)
+                                                                 : delaunay_graph(particles.graph_from);
     watch.lap("delaunay");
     stop_if_interrupted("Voronoi cells");
-    const RestrictedVoronoi voronoi(body, particles.scaled, result.graph, request.backend);
+    const RestrictedVoronoi voronoi(body, particles.scaled, graph, request.backend);
     result.measures = measure_cells(voronoi);
     watch.lap("cells");
     progress.advance(round);
@@ -188,17 +211,20 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   quality.inserted_particles = cells.inserted;
   quality.stranded_volume = cells.measures.stranded * body.scaling.volume() / domain.volume;
   quality.corners = static_cast<std::int64_t>(domain.corners.size());
-  assess(domain, cloud, cells.graph, particles.h, quality);
+  quality.corner_particles = std::count(cloud.cad_dimension.begin(), cloud.cad_dimension.end(), 0);
+  assess_cells(domain, cloud, quality);
   check_volume(quality);
   quality.area_correction = balance_areas(cloud);
+  note_coarse_parts(cloud, quality, request, progress);
   if (request.subvolumes == Subvolumes::uniform) {
     // The cells proved exact above; the particles share the volume alike all the same.
     cloud.V.assign(cloud.X.size(), domain.volume / static_cast<double>(cloud.size()));
-    assess(domain, cloud, cells.graph, particles.h, quality);
+    assess_cells(domain, cloud, quality);
   }
   quality.area_imbalance = area_imbalance(cloud);
 
   look_around(domain, domain.dimension == 2 ? 14 : 30, request.sight, cloud);
+  assess_spacing(cloud, particles.h, quality);
   quality.hidden_pairs = static_cast<std::int64_t>(cloud.hidden.pairs().size());
   watch.lap("visibility");
   stop_if_interrupted("preparing particles");

@@ -1,5 +1,6 @@
 #include "preprocess/cloud/quality.hpp"
 
+#include "core/neighbours.hpp"
 #include "core/parallel.hpp"
 #include "preprocess/cloud/assess.hpp"
 
@@ -9,8 +10,7 @@
 
 namespace tessera::preprocess {
 
-void assess(const Domain& domain, const ParticleCloud& cloud, const DelaunayGraph& graph, double h,
-            Quality& quality) {
+void assess_cells(const Domain& domain, const ParticleCloud& cloud, Quality& quality) {
   const std::int64_t n = cloud.size();
   quality.particles = n;
   quality.dimension = cloud.dimension;
@@ -42,14 +42,13 @@ void assess(const Domain& domain, const ParticleCloud& cloud, const DelaunayGrap
         return domain.tet_volume(t) * centroid;
       });
   quality.first_moment_error = (cells - body).norm() / (domain.volume * (domain.upper - domain.lower).norm());
+}
 
-  // The nearest particle is always a Delaunay neighbour, and rows begin with it.
-  const auto nearest = [&](std::int64_t i) {
-    const auto row = graph.of(i);
-    return row.empty() ? 0 : (cloud.X[row.front()] - cloud.X[i]).norm();
-  };
-  quality.spacing_min = min_of(n, nearest(0), nearest);
-  quality.spacing_mean = sum(n, 0.0, nearest) / static_cast<double>(n);
+void assess_spacing(const ParticleCloud& cloud, double h, Quality& quality) {
+  const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);
+  const std::int64_t n = cloud.size();
+  quality.spacing_min = min_of(n, nearest[0], [&](std::int64_t i) { return nearest[i]; });
+  quality.spacing_mean = sum(n, 0.0, [&](std::int64_t i) { return nearest[i]; }) / static_cast<double>(n);
   quality.spacing_ratio = quality.spacing_mean > 0 ? quality.spacing_min / quality.spacing_mean : 0;
   quality.spacing_min_over_h = quality.spacing_min / h;
 }
@@ -78,6 +77,7 @@ std::string to_json(const Quality& q) {
                                     {"volume_min", q.volume_min},
                                     {"volume_max", q.volume_max},
                                     {"corners", q.corners},
+                                    {"corner_particles", q.corner_particles},
                                     {"sets", sets},
                                     {"seed", q.seed},
                                     {"disconnected_cells", q.disconnected_cells},

@@ -21,14 +21,15 @@ struct Quality {
   double area_imbalance = 0;     ///< what is left of sum A = 0 and sum X (x) A = (sum V) I, relative
   double first_moment_error = 0; ///< |sum V centroid - integral of X| / (V diagonal)
   double closure_error = 0;      ///< largest |sum of a cell's face areas| / sum of their magnitudes
-  double spacing_min = 0;        ///< smallest nearest-neighbour distance, m
+  double spacing_min = 0;        ///< smallest distance to the nearest particle one sees, m
   double spacing_mean = 0;       ///< mean nearest-neighbour distance, m
   double spacing_ratio = 0;      ///< min / mean
   double spacing_min_over_h =
       0;                 ///< min / h, h the (V/N)^(1/d) that merging used (the lattice spacing on lattices)
   double volume_min = 0; ///< smallest subvolume / mean
   double volume_max = 0; ///< largest subvolume / mean
-  std::int64_t corners = 0;                               ///< CAD corners, each of them a particle
+  std::int64_t corners = 0;                               ///< of the CAD model
+  std::int64_t corner_particles = 0;                      ///< particles on them
   std::vector<std::pair<std::string, std::int64_t>> sets; ///< particles in each set
   std::uint64_t seed = 0;
   std::int64_t disconnected_cells = 0; ///< cells whose part of the body falls into several pieces

@@ -115,27 +115,45 @@ std::vector<std::int32_t> surfaces_in(const SetSource& source, const Vec3& point
 
 } // namespace
 
+namespace {
+
+/// A name no set carries yet: groups of different dimension may share one, and "all" means every particle.
+std::string free_name(const std::string& wanted, int dimension, const std::vector<ParticleSet>& taken) {
+  constexpr const char* kind[] = {".points", ".curves", ".surfaces", ".volumes"};
+  const auto is_taken = [&](const std::string& name) {
+    return name == "all" ||
+           std::any_of(taken.begin(), taken.end(), [&](const auto& set) { return set.name == name; });
+  };
+  std::string name = is_taken(wanted) ? wanted + kind[dimension] : wanted;
+  while (is_taken(name))
+    name += '_';
+  return name;
+}
+
+} // namespace
+
 std::vector<ParticleSet> group_sets(const SetSource& source) {
   std::vector<ParticleSet> sets;
   bool surfaces_named = false;
   for (const auto& group : source.domain.groups) {
+    const std::string name = free_name(group.name, group.dimension, sets);
     switch (group.dimension) {
     case 0: {
       std::set<std::int32_t> members;
       for (const std::int32_t v : group.vertices)
         members.insert(nearest(source.cloud, source.domain.vertices[v]));
-      sets.push_back(set_of(group.name, members));
+      sets.push_back(set_of(name, members));
       break;
     }
     case 1:
-      sets.push_back(curve_set(source, group.name, group.curves));
+      sets.push_back(curve_set(source, name, group.curves));
       break;
     case 2:
-      sets.push_back(surface_set(source, group.name, group.surfaces));
+      sets.push_back(surface_set(source, name, group.surfaces));
       surfaces_named = true;
       break;
     default: {
-      ParticleSet all{group.name, {}, {}};
+      ParticleSet all{name, {}, {}};
       for (std::int32_t i = 0; i < source.cloud.size(); ++i)
         all.particles.push_back(i);
       sets.push_back(std::move(all));
@@ -180,7 +198,14 @@ ParticleSet selected_set(const SetSource& source, const SetSelector& selector) {
           ((box->upper - cloud.X[i]).array() >= -tolerance).all())
         set.particles.push_back(i);
   } else {
-    set.particles.push_back(nearest(cloud, std::get<NearestSelector>(selector.where).point));
+    const Vec3& point = std::get<NearestSelector>(selector.where).point;
+    const Vec3 lower = source.domain.lower, upper = source.domain.upper;
+    const double beyond = (lower - point).cwiseMax(point - upper).cwiseMax(0.0).norm();
+    require(beyond <= (upper - lower).norm(),
+            fmt::format("the point ({:g}, {:g}, {:g}) m lies {:.3g} m outside the body's bounding box",
+                        point[0], point[1], point[2], beyond),
+            where, "sets are in metres, whatever the unit of the file: move the point to the body");
+    set.particles.push_back(nearest(cloud, point));
   }
   if (set.particles.empty()) {
     Vec3 lower = cloud.X[0], upper = cloud.X[0];

@@ -76,7 +76,7 @@ void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path
   const auto mebibytes = source.bytes >> 20;
   const auto out_of_memory = [&] {
     return InputError(fmt::format("the import needs more than its memory limit of {} MiB", mebibytes), name,
-                      "raise the limit, loosen [geometry] tolerance or simplify the part");
+                      "raise [geometry] memory_limit, loosen tolerance or simplify the part");
   };
   switch (end.how) {
   case ChildEnd::How::not_started:
@@ -86,10 +86,10 @@ void check_end(const ChildEnd& end, const GeometrySource& source, const fs::path
   case ChildEnd::How::interrupted:
     throw RunError("interrupted during import", name, "run the same command again to start it anew");
   case ChildEnd::How::out_of_time:
-    throw InputError(fmt::format("the import takes longer than its limit of {:g} s{}", source.seconds,
-                                 quoted_last_words(end.output)),
-                     name,
-                     "raise the limit, loosen [geometry] tolerance, enlarge mesh sizes or simplify the part");
+    throw InputError(
+        fmt::format("the import takes longer than its limit of {:g} s{}", source.seconds,
+                    quoted_last_words(end.output)),
+        name, "raise [geometry] time_limit, loosen tolerance, enlarge mesh sizes or simplify the part");
   case ChildEnd::How::signalled:
     if (speaks_of_memory(end.output) || end.peak_bytes > source.bytes / 4 * 3)
       throw out_of_memory();

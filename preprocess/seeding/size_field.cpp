@@ -1,47 +1,34 @@
 #include "preprocess/seeding/size_field.hpp"
 
 #include "core/error.hpp"
+#include "core/particle_cloud.hpp"
 #include "preprocess/seeding/box_tree.hpp"
 #include "preprocess/seeding/nearness.hpp"
 #include "preprocess/seeding/tet_locator.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <utility>
 
 namespace tessera::preprocess {
 namespace {
 
 constexpr double smallest_size = 0.01;
 
-/// Letters to change, add or leave out to come from one word to the other (Levenshtein 1966).
-std::size_t edits_between(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t before = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j)
-      before = std::exchange(row[j + 1], std::min({before + (a[i] != b[j]), row[j] + 1, row[j + 1] + 1}));
-  }
-  return row.back();
-}
-
 [[noreturn]] void refuse_name(const Domain& domain, const std::string& name) {
   std::vector<std::string> known = domain.surfaces;
   for (const auto& group : domain.groups)
     known.push_back(group.name);
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return edits_between(name, a) < edits_between(name, b);
-  });
-  throw InputError(fmt::format("\"{}\" is no set of the geometry", name), "particles.refine",
-                   nearest == known.end() ? "refine around a point instead"
-                                          : fmt::format("the nearest name there is: \"{}\"", *nearest));
+  const std::string nearest = nearest_name(name, known);
+  throw InputError(fmt::format("\"{}\" is no set of the geometry file", name), "particles.refine",
+                   fmt::format("{}those of [[set]] come too late for it; the file has: {}",
+                               nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
+                               fmt::join(known, ", ")));
 }
 
 /// Points, segments and triangles of a set, all as triangles with repeated corners where they are less.
@@ -205,12 +192,27 @@ void check(const Refinement& refinement) {
 
 } // namespace
 
+/// A refinement that reaches no part of the body is a slip, most often of units.
+void require_reach(const Domain& domain, const Refinement& refinement) {
+  const Vec3* point = std::get_if<Vec3>(&refinement.around);
+  if (point == nullptr)
+    return;
+  const double beyond = (domain.lower - *point).cwiseMax(*point - domain.upper).cwiseMax(0.0).norm();
+  require(beyond < refinement.until,
+          fmt::format("the refinement around ({:g}, {:g}, {:g}) m ends {:.3g} m short of the body",
+                      (*point)[0], (*point)[1], (*point)[2], beyond - refinement.until),
+          "particles.refine", "refinements are in metres, whatever the unit of the file: move the point");
+}
+
 SizeField size_field(const Domain& domain, const std::vector<Refinement>& refine, bool sizes_from_mesh) {
   if (refine.empty() && !sizes_from_mesh)
     return {};
   const auto field = std::make_shared<Field>();
-  for (const Refinement& refinement : refine) {
+  for (Refinement refinement : refine) {
     check(refinement);
+    if (Vec3* point = std::get_if<Vec3>(&refinement.around); point != nullptr && domain.dimension == 2)
+      point->z() = 0;
+    require_reach(domain, refinement);
     Around& around = field->around.emplace_back(Around{refinement, std::nullopt});
     if (const auto* name = std::get_if<std::string>(&refinement.around))
       around.shape.emplace(domain, *name);

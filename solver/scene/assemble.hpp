@@ -99,7 +99,7 @@ template <int D, ConstitutiveLaw L, class Use>
 auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const L& law, Use&& use) {
   Neighbours graph = build_graph<D>(scene, cloud);
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
-  const std::vector<double> nearest = distance_to_nearest(cloud.X, 1);
+  const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);
   const double smallest = *std::min_element(nearest.begin(), nearest.end());
   const double wave_speed = std::sqrt(law.linearised().pressure_wave_modulus() / scene.material.density);
   std::vector<Vec<D>> X(cloud.X.size());

@@ -36,6 +36,36 @@ TEST(Output, SomebodyElsesFolderIsLeftAlone) {
   EXPECT_EQ(place.read("case.toml"), small_case);
 }
 
+TEST(Output, ARefusedCaseLeavesWhatWasThere) {
+  const Workplace place;
+  write_small_case(place);
+  ASSERT_EQ(place.tessera({"prepare", "case.toml", "--quiet", "-o", "out"}).status, 0);
+  const std::string cloud = place.read("out/cloud.vtp"), stored = place.read("out/case.toml");
+  for (const char* command : {"prepare", "run"}) {
+    expect_error(
+        place.tessera({command, "case.toml", "--quiet", "-o", "out", "--set", "particles.spacing=1e-9"}),
+        {"particles"});
+    EXPECT_EQ(place.read("out/cloud.vtp"), cloud);
+    EXPECT_EQ(place.read("out/case.toml"), stored);
+    expect_error(
+        place.tessera({command, "case.toml", "--quiet", "-o", "new", "--set", "particles.spacing=1e-9"}),
+        {"particles"});
+    EXPECT_FALSE(fs::exists(place / "new")) << "no folder for a run that never began";
+  }
+}
+
+TEST(Output, CheckTakesACaseOfParticlesAlone) {
+  const Workplace place;
+  place.write("cube.toml", "[geometry]\nshape = \"box\"\nsize = [1, 1, 1]\n"
+                           "[particles]\narrangement = \"lattice\"\nspacing = 0.25\n");
+  const Result result = place.tessera({"check", "cube.toml", "--json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json outlook = Json::parse(result.out);
+  EXPECT_EQ(outlook["particles"], 125);
+  EXPECT_FALSE(outlook.contains("mass"));
+  expect_error(place.tessera({"run", "cube.toml", "--quiet"}), {"particles only", "[material]"});
+}
+
 TEST(Output, RunWritesWhatItPromises) {
   const Workplace place;
   write_small_case(place);

@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Bits{"RelaxedAndGraded", false, relaxed_and_graded, 0xdd07cd7840cc36bU},
                     Bits{"Poisson", false, poisson, 0x83a83181c6b96a8eU},
                     Bits{"PlaneTwoPass", true, two_pass, 0x69ea63dfb2c5ce36U},
-                    Bits{"PlaneRelaxedAndGraded", true, relaxed_and_graded, 0x567a1027746dccfU},
+                    Bits{"PlaneRelaxedAndGraded", true, relaxed_and_graded, 0x42de0bd0a4a29419U},
                     Bits{"PlanePoisson", true, poisson, 0x1d395c5dce2e5b78U}),
     [](const auto& param) { return std::string(param.param.name); });
 

@@ -23,7 +23,7 @@ std::size_t choose_body(const std::vector<Candidate>& candidates, const Request&
   }
   if (count == 1)
     return 0;
-  constexpr std::size_t most_listed = 6;
+  constexpr std::size_t most_listed = 4;
   std::string list;
   for (std::size_t c = 0; c < std::min(count, most_listed); ++c) {
     const Candidate& body = candidates[c];

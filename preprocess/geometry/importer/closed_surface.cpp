@@ -203,6 +203,10 @@ Triangles closed_surface(const Triangles& surface, const Request& request) {
     }
     result.triangles.push_back(triangle);
   }
+  const auto shells = preprocess::shells_of(result.triangles);
+  if (const auto inner = *std::max_element(shells.begin(), shells.end()); inner > 0)
+    note(fmt::format("{} inside the surface bounds a cavity, not material",
+                     counted(static_cast<std::size_t>(inner), "closed shell")));
   return result;
 }
 

@@ -153,7 +153,10 @@ void require_first_order(int dimension, const std::string& name) {
                        name, fmt::format("save it with first-order {}", plane ? "triangles" : "tetrahedra"));
     }
   require(!types.empty(), fmt::format("there are no {} in the mesh", plane ? "triangles" : "tetrahedra"),
-          name, plane ? "mesh the plane surface" : "mesh the volume, not only the surface");
+          name,
+          plane ? "mesh the plane surface, and save all of it: where there are physical groups gmsh saves "
+                  "those only (Mesh.SaveAll = 1)"
+                : "mesh the volume, not only the surface, and save all of it (Mesh.SaveAll = 1)");
 }
 
 } // namespace tessera::importer

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace tessera::preprocess {
 namespace {
@@ -189,6 +190,41 @@ TEST(Prepare, SelectorsFindTheirParticlesOrSayWhereTheyAre) {
     EXPECT_NE(std::string(error.what()).find("nowhere"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("(1, 1, 1)"), std::string::npos);
   }
+}
+
+TEST(Prepare, GroupsOfOneNameAndReservedNamesGetNamesOfTheirOwn) {
+  Domain box = test::box_domain();
+  box.groups = {{"edge", 1, {}, {0}, {}}, {"edge", 2, {0}, {}, {}}, {"all", 2, {1}, {}, {}}};
+  const ParticleCloud cloud = prepare(box, lattice(0.25), Progress::silent()).cloud;
+  EXPECT_EQ(cloud.set("edge").particles.size(), 5u);
+  EXPECT_EQ(cloud.set("edge.surfaces").particles.size(), 25u);
+  EXPECT_EQ(cloud.set("all.surfaces").particles.size(), 25u);
+}
+
+TEST(Prepare, PointsFarFromTheBodyAreTakenForSlipsOfUnits) {
+  const Domain box = test::box_domain();
+  ParticleRequest far = lattice(0.25);
+  far.sets = {{"probe", NearestSelector{Vec3(50, 0, 0)}}};
+  EXPECT_THROW(prepare(box, far, Progress::silent()), InputError);
+  ParticleRequest refined = voronoi(500);
+  refined.refine = {{Vec3(50, 0, 0), 0.5, 0, 10}};
+  EXPECT_THROW(prepare(box, refined, Progress::silent()), InputError);
+  refined.refine = {{Vec3(1.2, 0, 0), 0.5, 0, 0.5}};
+  EXPECT_NO_THROW(prepare(box, refined, Progress::silent()));
+}
+
+/// What prepare() says while it works.
+std::string notes_of(const Domain& domain, const ParticleRequest& request) {
+  std::ostringstream out;
+  Progress progress(out, false, false);
+  prepare(domain, request, progress);
+  return out.str();
+}
+
+TEST(Prepare, PartsFinerThanTheLatticeAreSpokenOf) {
+  // Three points a side, a tenth of it off the faces: X (x) A sums to 0.8 of the volume.
+  EXPECT_NE(notes_of(test::box_domain(), lattice(0.4)).find("24 % of its areas"), std::string::npos);
+  EXPECT_EQ(notes_of(test::box_domain(), lattice(0.25)).find("note:"), std::string::npos);
 }
 
 TEST(Prepare, RefusesRequestsItCannotMeet) {
