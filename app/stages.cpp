@@ -46,10 +46,11 @@ void require_sets(const Case& the_case, const ParticleCloud& cloud) {
   const solver::SceneSpec& scene = the_case.scene;
   for (std::size_t i = 0; i < scene.initial.size(); ++i)
     require_set(scene.initial[i].on, fmt::format("initial.{}.on", i));
-  for (std::size_t i = 0; i < scene.fixed.size(); ++i)
-    require_set(scene.fixed[i].on, fmt::format("boundary.{}.on", i));
+  for (std::size_t i = 0; i < scene.boundary.size(); ++i)
+    require_set(scene.boundary[i].on, fmt::format("boundary.{}.on", i));
   for (std::size_t i = 0; i < scene.probes.size(); ++i)
-    require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
+    if (!scene.probes[i].at)
+      require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
 }
 
 fs::path results_folder(const Case& the_case, const Options& options) {

@@ -66,6 +66,14 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
   json["probes"] = Json::object();
   for (const auto& [name, value] : s.probes)
     json["probes"][name] = value;
+  if (s.error)
+    json["error"] = {{"l1_velocity", s.error->l1_velocity},
+                     {"l2_velocity", s.error->l2_velocity},
+                     {"l2_velocity_relative", s.error->l2_velocity_relative},
+                     {"l2_velocity_thesis", s.error->l2_velocity_thesis},
+                     {"l1_pressure", s.error->l1_pressure},
+                     {"l2_pressure", s.error->l2_pressure},
+                     {"l2_pressure_relative", s.error->l2_pressure_relative}};
   return print(json);
 }
 
@@ -92,6 +100,9 @@ std::string outlook_json(const Case& the_case, const Outlook& o) {
     json["steps"] = f.steps;
     json["neighbours_mean"] = f.neighbours_mean;
     json["bytes_per_particle"] = f.bytes_per_particle;
+    json["bytes_by_formulation"] = Json::object();
+    for (const auto& [name, bytes] : f.bytes_by_formulation)
+      json["bytes_by_formulation"][name] = bytes;
     json["seconds"] = f.seconds;
     json["modelled"] = f.modelled;
     json["left_out"] = f.left_out;
@@ -128,6 +139,10 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
   line("memory", fmt::format("{:.1f} MB ({:.0f} bytes a particle)",
                              f.bytes_per_particle * static_cast<double>(o.quality.particles) / 1e6,
                              f.bytes_per_particle));
+  std::string others;
+  for (const auto& [name, bytes] : f.bytes_by_formulation)
+    others += fmt::format("{}{} {:.0f}", others.empty() ? "" : ", ", name, bytes);
+  line("", fmt::format("bytes a particle by formulation: {}", others));
   line("time", fmt::format("at least {} on {} thread{}: a body that is compressed takes more steps",
                            duration(f.seconds), threads(), threads() == 1 ? "" : "s"));
   return text;

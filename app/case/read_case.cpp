@@ -1,5 +1,6 @@
 #include "app/case/case.hpp"
 #include "app/case/read_cloud.hpp"
+#include "app/case/read_conditions.hpp"
 #include "app/case/table.hpp"
 #include "core/error.hpp"
 #include "solver/physics/materials/catalogue.hpp"
@@ -57,68 +58,20 @@ void read_solver(Table solver, solver::SceneSpec& scene) {
   scene.kernel = solver.text_or("kernel", scene.kernel);
   scene.support = solver.optional_number("support");
   scene.neighbours = static_cast<int>(solver.integer_or("neighbours", scene.neighbours, 1, 1000));
-  scene.jst4 = solver.number_or("jst4", scene.jst4);
+  if (solver.is_table("jst4")) {
+    Table ramp = solver.table("jst4");
+    scene.jst4 = solver::Kappa4{ramp.number("elastic"), ramp.number("plastic"), ramp.number("strain")};
+    ramp.finish();
+  } else if (const auto constant = solver.optional_number("jst4")) {
+    scene.jst4 = solver::Kappa4::constant(*constant);
+  }
+  scene.jst2 = solver.number_or("jst2", scene.jst2);
+  scene.jst4_J = solver.optional_number("jst4_J");
+  scene.involution = solver.optional_number("involution");
   scene.cfl = solver.number_or("cfl", scene.cfl);
   scene.momentum_projection = solver.boolean_or("momentum_projection", scene.momentum_projection);
   scene.end_time = solver.number("end_time");
   solver.finish();
-}
-
-/// v = omega x (X - centre) as formulas.
-std::array<std::string, 3> spin_formulas(const Vec3& omega, const Vec3& centre) {
-  const char* const name[] = {"X", "Y", "Z"};
-  std::array<std::string, 3> formulas;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    formulas[static_cast<std::size_t>(i)] = fmt::format("({})*({}-({}))-({})*({}-({}))", omega[j], name[k],
-                                                        centre[k], omega[k], name[j], centre[j]);
-  }
-  return formulas;
-}
-
-solver::Expression parse_formula(const Table& initial, std::size_t component, const std::string& formula) {
-  try {
-    return solver::Expression(formula);
-  } catch (const InputError& e) {
-    initial.refuse(fmt::format("velocity.{}", component),
-                   fmt::format("{}: {}", initial.path_of("velocity"), e.what()),
-                   "a formula may use X, Y, Z (metres), _pi, _e and functions such as sin, sqrt");
-  }
-}
-
-solver::InitialVelocity read_initial(Table initial) {
-  const std::string on = initial.text_or("on", "all");
-  auto formulas = initial.optional_formulas("velocity");
-  auto spin = initial.optional_table("spin");
-  Vec3 omega = Vec3::Zero(), centre = Vec3::Zero();
-  if (spin) {
-    omega = spin->vector("omega");
-    centre = spin->vector("centre");
-    spin->finish();
-  }
-  initial.finish();
-  if (formulas.has_value() == spin.has_value())
-    throw InputError(
-        fmt::format("an [[initial]] entry has {}", spin ? "both velocity and spin" : "no velocity"),
-        initial.where(), "give exactly one of velocity = [..] and spin = {omega = [..], centre = [..]}");
-  if (spin)
-    formulas = spin_formulas(omega, centre);
-  return {on,
-          {parse_formula(initial, 0, (*formulas)[0]), parse_formula(initial, 1, (*formulas)[1]),
-           parse_formula(initial, 2, (*formulas)[2])}};
-}
-
-solver::FixedCondition read_boundary(Table boundary) {
-  solver::FixedCondition condition;
-  condition.on = boundary.text("on");
-  if (boundary.choice("type", {"clamped", "fixed"}) == "fixed") {
-    const std::vector<std::string> components = boundary.choices("components", {"x", "y", "z"});
-    for (std::size_t i = 0; i < 3; ++i)
-      condition.component[i] =
-          std::find(components.begin(), components.end(), std::string(1, "xyz"[i])) != components.end();
-  }
-  boundary.finish();
-  return condition;
 }
 
 solver::PlaneWall read_wall(Table table) {
@@ -138,8 +91,13 @@ solver::Probe read_probe(Table table) {
   solver::Probe probe;
   probe.name = table.name("name");
   probe.quantity = table.text("quantity");
-  probe.reduce = table.text("reduce");
-  probe.on = table.text_or("on", probe.on);
+  probe.at = table.optional_vector("at");
+  if (!probe.at) {
+    probe.reduce = table.text("reduce");
+    probe.on = table.text_or("on", probe.on);
+  }
+  if (probe.quantity == "radius" || probe.quantity == "angle")
+    probe.centre = table.optional_vector("centre").value_or(probe.centre);
   table.finish();
   return probe;
 }
@@ -230,7 +188,7 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   Table geometry = root.table("geometry");
   Table particles = root.table("particles");
   // A case that only describes particles needs no material: `prepare` is all that can be done with it.
-  for (const char* key : {"material", "solver", "initial", "boundary", "wall", "output"})
+  for (const char* key : {"material", "solver", "initial", "boundary", "wall", "exact", "output"})
     result.has_scene |= root.has(key);
   std::optional<Table> material, solver;
   if (result.has_scene) {
@@ -239,7 +197,7 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   }
   const std::vector<Table> sets = root.tables("set"), initial = root.tables("initial"),
                            boundary = root.tables("boundary"), wall = root.tables("wall");
-  std::optional<Table> output = root.optional_table("output");
+  std::optional<Table> output = root.optional_table("output"), exact = root.optional_table("exact");
   root.finish();
 
   result.geometry = read_geometry(geometry, result.path.parent_path());
@@ -256,9 +214,11 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   for (const Table& entry : initial)
     scene.initial.push_back(read_initial(entry));
   for (const Table& entry : boundary)
-    scene.fixed.push_back(read_boundary(entry));
+    scene.boundary.push_back(read_boundary(entry));
   for (const Table& entry : wall)
     scene.walls.push_back(read_wall(entry));
+  if (exact)
+    scene.exact = read_exact(*exact);
   if (output) {
     scene.frames = static_cast<int>(output->integer_or("frames", scene.frames, 1, 100'000));
     scene.history_rows =

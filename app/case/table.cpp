@@ -64,6 +64,10 @@ bool Table::is_text(const std::string& key) const {
   return has(key) && table_->get(key)->is_string();
 }
 
+bool Table::is_table(const std::string& key) const {
+  return has(key) && table_->get(key)->is_table();
+}
+
 void Table::refuse(const std::string& key, const std::string& what, const std::string& remedy) const {
   throw InputError(what, document_->where(path_of(key)), remedy);
 }
@@ -232,25 +236,39 @@ std::vector<double> Table::number_list(const std::string& key) {
   return values;
 }
 
+std::string Table::formula_in(const std::string& key, const toml::node& node) const {
+  if (node.is_number())
+    return fmt::format("{}", number_in(key, node, any_number));
+  if (!node.is_string())
+    wrong_type(key, node, "a number or a formula in quotes");
+  return *node.value<std::string>();
+}
+
+std::array<std::string, 3> Table::formulas_in(const std::string& key, const toml::node& node) const {
+  const toml::array* list = node.as_array();
+  if (list == nullptr || list->size() != 3)
+    wrong_type(key, node, "a list of three numbers or formulas");
+  std::array<std::string, 3> formulas;
+  for (std::size_t i = 0; i < 3; ++i)
+    formulas[i] = formula_in(fmt::format("{}.{}", key, i), *list->get(i));
+  return formulas;
+}
+
+std::string Table::formula(const std::string& key) {
+  const toml::node* node = declare_wanted(key);
+  return node == nullptr ? "0" : formula_in(key, *node);
+}
+
+std::array<std::string, 3> Table::formulas(const std::string& key) {
+  const toml::node* node = declare_wanted(key);
+  return node == nullptr ? std::array<std::string, 3>{"0", "0", "0"} : formulas_in(key, *node);
+}
+
 std::optional<std::array<std::string, 3>> Table::optional_formulas(const std::string& key) {
   const toml::node* node = declare(key);
   if (node == nullptr)
     return std::nullopt;
-  const toml::array* list = node->as_array();
-  if (list == nullptr || list->size() != 3)
-    wrong_type(key, *node, "a list of three numbers or formulas");
-  std::array<std::string, 3> formulas;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const toml::node& entry = *list->get(i);
-    const std::string entry_key = fmt::format("{}.{}", key, i);
-    if (entry.is_number())
-      formulas[i] = fmt::format("{}", number_in(entry_key, entry, any_number));
-    else if (entry.is_string())
-      formulas[i] = *entry.value<std::string>();
-    else
-      wrong_type(entry_key, entry, "a number or a formula in quotes");
-  }
-  return formulas;
+  return formulas_in(key, *node);
 }
 
 std::string Table::number_or_word(const std::string& key, const std::string& otherwise) {

@@ -54,7 +54,10 @@ class Table {
   std::vector<double> numbers(const std::string& key, int count, Range range = any_number);
   /// A list of one or more numbers.
   std::vector<double> number_list(const std::string& key);
-  /// Three formulas, each a string or a number.
+  /// A formula: a string or a number.
+  std::string formula(const std::string& key);
+  /// Three of them.
+  std::array<std::string, 3> formulas(const std::string& key);
   std::optional<std::array<std::string, 3>> optional_formulas(const std::string& key);
   /// A number or a word.
   std::string number_or_word(const std::string& key, const std::string& otherwise);
@@ -75,6 +78,7 @@ class Table {
   [[noreturn]] void refuse(const std::string& key, const std::string& what, const std::string& remedy) const;
   bool has(const std::string& key) const;
   bool is_text(const std::string& key) const;
+  bool is_table(const std::string& key) const;
   bool is_overridden(const std::string& key) const { return document_->is_overridden(path_of(key)); }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string where() const { return document_->where(path_); }
@@ -85,6 +89,8 @@ class Table {
   const toml::node* declare_wanted(const std::string& key);
   [[noreturn]] void wrong_type(const std::string& key, const toml::node& node, const char* wanted) const;
   double number_in(const std::string& key, const toml::node& node, Range range) const;
+  std::string formula_in(const std::string& key, const toml::node& node) const;
+  std::array<std::string, 3> formulas_in(const std::string& key, const toml::node& node) const;
   std::string text_in(const std::string& key, const toml::node& node) const;
   std::string one_of(const std::string& key, const std::string& word,
                      const std::vector<std::string>& allowed) const;

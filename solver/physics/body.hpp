@@ -1,16 +1,17 @@
-/// A body of particles in the {p, F} formulation: its fields, its law, and the rates of section 3.4, (3.82).
+/// A body of particles: its fields, its material, and the rates of section 3.4, (3.82) and (3.90).
 #pragma once
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "solver/operators/gradient.hpp"
+#include "solver/physics/formulation.hpp"
 #include "solver/physics/jst.hpp"
-#include "solver/physics/pf.hpp"
-#include "solver/physics/strain.hpp"
+#include "solver/physics/material.hpp"
 #include "solver/physics/stress_measures.hpp"
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,133 +20,238 @@ namespace tessera::solver {
 /// Thrown where a particle's state stops making sense; whoever runs the body turns it into a RunError.
 struct Breakdown {
   std::int64_t particle;
-  double J; ///< det F at the particle; not positive, or positive where another field is not finite
+  double J; ///< volume ratio at the particle; not positive, or positive where another field is not finite
 };
 
-template <int D, class Law, class Dissipation>
+/// What a body needs beside its fields.
+template <int D, class Dissipation>
+struct BodyParts {
+  std::vector<Vec<D>> X; ///< reference positions, m
+  std::vector<double> V; ///< subvolumes, m^3
+  double density;        ///< reference density, kg/m^3
+  std::unique_ptr<Material<D>> material;
+  Neighbours neighbours;
+  Gradient<D> gradient;
+  Dissipation dissipation;
+  double involution = 0; ///< xi of the penalty that ties J to det F and H to cof F, over `delta`
+  double delta = 1;      ///< smallest particle distance, m
+};
+
+template <class Formulation_, class Dissipation>
 class Body {
  public:
-  using Formulation = PF<D>;
-  static constexpr int dimension = D;
+  using Formulation = Formulation_;
+  static constexpr int dimension = Formulation::dimension, D = dimension;
+  static constexpr bool dissipates = Dissipation::active;
+  static constexpr bool dissipates_J = Dissipation::of_J;
+  static_assert(Formulation::evolves_J || !dissipates_J);
 
-  Body(std::vector<Vec<D>> X, std::vector<double> subvolumes, double reference_density,
-       double pressure_wave_speed, const Law& material_law, Neighbours graph, Gradient<D> gradient_weights,
-       Dissipation jst)
-      : V(std::move(subvolumes)), density(reference_density), wave_speed(pressure_wave_speed),
-        law(material_law), neighbours(std::move(graph)), gradient(std::move(gradient_weights)),
-        dissipation(std::move(jst)), U(X.size()), R(X.size()), history(X.size()), P(X.size(), Mat<D>::Zero()),
-        T(X.size(), Vec<D>::Zero()), stretch(X.size(), 1.0) {
-    U.x = std::move(X);
-    if constexpr (Dissipation::active)
-      dissipation.lap_p.assign(V.size(), Vec<D>::Zero());
+  /// At rest at the reference positions.
+  explicit Body(BodyParts<D, Dissipation> parts)
+      : V(std::move(parts.V)), density(parts.density),
+        wave_speed(std::sqrt(parts.material->linearised().pressure_wave_modulus() / parts.density)),
+        material(std::move(parts.material)), neighbours(std::move(parts.neighbours)),
+        gradient(std::move(parts.gradient)), dissipation(std::move(parts.dissipation)), U(V.size()),
+        R(V.size()), P(V.size(), Mat<D>::Zero()), T(V.size(), Vec<D>::Zero()), wave(V.size(), wave_speed),
+        involution_(parts.involution / parts.delta) {
+    U.x = std::move(parts.X);
+    dissipation.allocate(V.size());
+    if constexpr (!Formulation::evolves_F)
+      gradient_of_x_.assign(V.size(), Mat<D>::Identity());
     commit();
   }
 
   std::int64_t size() const { return static_cast<std::int64_t>(V.size()); }
 
-  /// R = rates of U: dF/dt = G = grad v, dx/dt = v, dp/dt = T + D, with T alone kept beside it. P must belong
-  /// to U.
+  /// Positions are now x: the strains follow by the discrete gradient, so that F and x agree in what the
+  /// operators see, (2.169).
+  void deform(std::vector<Vec<D>> x) {
+    U.x = std::move(x);
+    for_each(size(), [&](std::int64_t a) {
+      const Mat<D> F = gradient_of_x(a);
+      if constexpr (Formulation::evolves_F)
+        U.F[a] = F;
+      if constexpr (Formulation::evolves_H)
+        U.H[a] = cofactor(embed(F));
+      if constexpr (Formulation::evolves_J)
+        U.J[a] = F.determinant();
+    });
+  }
+
+  /// R = rates of U: dx/dt = v, dF/dt = G = grad v, dH/dt = F x G, dJ/dt = H : G and dp/dt = T + D, as far as
+  /// U has them, with T alone kept beside it. P must belong to U.
   void rates() {
     strain_rates();
     momentum_rates();
   }
 
-  /// P of U with the history as it stands: stresses within a step. Throws Breakdown.
+  /// P of U with the histories as they stand: stresses within a step. Throws Breakdown.
   void stresses() {
     check();
-    for_each(size(), [&](std::int64_t a) {
-      typename Law::History trial = history[a];
-      P[a] = piola(a, trial);
-    });
+    material->stresses(strains(), P);
+    sense();
   }
 
-  /// The step is over: the history advances to U, P and the stretches follow. Throws Breakdown, before any
-  /// change.
+  /// The step is over: the histories advance to U, P and the wave speeds follow. Throws Breakdown, before any
+  /// change of the histories.
   void commit() {
     check();
-    for_each(size(), [&](std::int64_t a) {
-      P[a] = piola(a, history[a]);
-      stretch[a] = smallest_stretch<D>(U.F[a]);
-    });
+    material->commit(strains(), P);
+    for_each(size(), [&](std::int64_t a) { wave[a] = wave_speed / smallest_stretch<D>(strains().F[a]); });
+    if constexpr (dissipates)
+      if (dissipation.kappa4.ramped())
+        for_each(size(), [&](std::int64_t a) {
+          dissipation.epsilon4[a] = dissipation.kappa4.at(material->equivalent_plastic_strain(a));
+        });
+    sense();
   }
 
-  /// Largest pressure wave speed as the body is deformed: the undeformed one over the smallest stretch,
-  /// (3.93), m/s.
+  /// Largest pressure wave speed as the body is deformed, (3.93), m/s.
   double fastest_wave() const {
-    return wave_speed / min_of(size(), 1.0, [&](std::int64_t a) { return stretch[a]; });
+    return max_of(size(), 0.0, [&](std::int64_t a) { return wave[a]; });
   }
 
   Vec<D> velocity(std::int64_t a) const { return U.p[a] / density; }
-  Strain strain(std::int64_t a) const { return Strain::of(embed(U.F[a])); }
+  StrainFields<D> strains() const {
+    if constexpr (Formulation::evolves_F)
+      return U.strain_fields();
+    else
+      return {gradient_of_x_, {}, {}};
+  }
+  Strain strain(std::int64_t a) const { return strains()[a]; }
 
   const std::vector<double> V; ///< subvolumes, m^3
   const double density;        ///< reference density, kg/m^3
   const double wave_speed;     ///< of pressure waves, undeformed, m/s
-  const Law law;
+  const std::unique_ptr<Material<D>> material;
   const Neighbours neighbours;
   const Gradient<D> gradient;
   Dissipation dissipation;
 
-  Formulation U;                              ///< the state
-  Formulation R;                              ///< its rates
-  std::vector<typename Law::History> history; ///< as of the last commit
-  std::vector<Mat<D>> P;                      ///< first Piola-Kirchhoff stress of U, Pa
-  std::vector<Vec<D>> T;                      ///< divergence of P alone, N/m^3
-  std::vector<double> stretch;                ///< smallest principal stretch at the last commit
+  Formulation U;            ///< the state
+  Formulation R;            ///< its rates
+  std::vector<Mat<D>> P;    ///< first Piola-Kirchhoff stress of U, Pa
+  std::vector<Vec<D>> T;    ///< divergence of P alone, N/m^3
+  std::vector<double> wave; ///< pressure wave speed at the last commit, m/s: the one at rest over the
+                            ///< smallest stretch, (3.93)
 
  private:
-  Mat<D> piola(std::int64_t a, typename Law::History& memory) const {
-    return law.piola(strain(a), memory).template topLeftCorner<D, D>();
+  Mat<D> gradient_of_x(std::int64_t a) const {
+    Mat<D> F = -U.x[a] * gradient.s[a].transpose();
+    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e)
+      F += U.x[neighbours.column[e]] * gradient.w[e].transpose();
+    return F;
   }
 
-  void check() const {
+  void check() {
+    if constexpr (!Formulation::evolves_F)
+      for_each(size(), [&](std::int64_t a) { gradient_of_x_[a] = gradient_of_x(a); });
     for_each(size(), [&](std::int64_t a) {
-      const double J = U.F[a].determinant();
+      double J = strains().F[a].determinant();
+      if constexpr (Formulation::evolves_J)
+        J = std::min(J, U.J[a]);
       if (!(J > 0) || !std::isfinite(J) || !U.p[a].allFinite())
         throw Breakdown{a, J};
     });
   }
 
-  /// One sweep over the edges gathers v for G and, where there is dissipation, lap p.
+  /// The sensor of the shock term, where there is one, from the mean normal stress in D dimensions.
+  void sense() {
+    if constexpr (dissipates) {
+      if (dissipation.epsilon2.empty())
+        return;
+      std::vector<double> pressure(V.size());
+      for_each(size(), [&](std::int64_t a) {
+        const Mat<D>& F = strains().F[a];
+        pressure[a] = P[a].cwiseProduct(F).sum() / (D * F.determinant());
+      });
+      sense_shocks(dissipation, neighbours, pressure);
+    }
+  }
+
+  /// One sweep over the edges gathers v for G and, where there is dissipation, lap p and lap J.
   void strain_rates() {
     for_each(size(), [&](std::int64_t a) {
-      Mat<D> G = -U.p[a] * gradient.s[a].transpose();
+      Mat<D> G = Mat<D>::Zero();
       Vec<D> lap_p = Vec<D>::Zero();
-      if constexpr (Dissipation::active)
+      double lap_J = 0;
+      if constexpr (Formulation::evolves_F)
+        G = -U.p[a] * gradient.s[a].transpose();
+      if constexpr (dissipates)
         lap_p = -dissipation.laplacian.sum[a] * U.p[a];
-      for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-        const Vec<D>& p_b = U.p[neighbours.column[e]];
-        for (int c = 0; c < D; ++c)
-          G.col(c) += gradient.w[e][c] * p_b;
-        if constexpr (Dissipation::active)
-          lap_p += dissipation.laplacian.l[e] * p_b;
-      }
-      R.F[a] = G / density;
+      if constexpr (dissipates_J)
+        lap_J = -dissipation.laplacian.sum[a] * U.J[a];
+      if constexpr (Formulation::evolves_F || dissipates)
+        for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+          const std::int32_t b = neighbours.column[e];
+          const Vec<D>& p_b = U.p[b];
+          if constexpr (Formulation::evolves_F)
+            for (int c = 0; c < D; ++c)
+              G.col(c) += gradient.w[e][c] * p_b;
+          if constexpr (dissipates)
+            lap_p += dissipation.laplacian.l[e] * p_b;
+          if constexpr (dissipates_J)
+            lap_J += dissipation.laplacian.l[e] * U.J[b];
+        }
       R.x[a] = U.p[a] / density;
-      if constexpr (Dissipation::active)
+      if constexpr (Formulation::evolves_F)
+        R.F[a] = G / density;
+      if constexpr (dissipates)
         dissipation.lap_p[a] = lap_p;
+      if constexpr (dissipates_J)
+        dissipation.lap_J[a] = lap_J;
+      map_rates(a);
     });
   }
 
-  /// The second sweep gathers P for T and, where there is dissipation, lap p for lap(lap p).
+  /// dH/dt and dJ/dt at a particle whose dF/dt is known.
+  void map_rates(std::int64_t a) {
+    if constexpr (Formulation::evolves_J) {
+      const Mat3 F = embed(U.F[a]), G = embed_rate(R.F[a]);
+      const Strain of_F = Strain::of(F);
+      const double pull = involution_ * wave[a];
+      if constexpr (Formulation::evolves_H) {
+        R.H[a] = cross(F, G) + pull * (of_F.H - U.H[a]);
+        R.J[a] = U.H[a].cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
+      } else {
+        R.J[a] = of_F.H.cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
+      }
+    }
+  }
+
+  /// The second sweep gathers P for T and, where there is dissipation, the Laplacians for their own.
   void momentum_rates() {
     for_each(size(), [&](std::int64_t a) {
       Vec<D> divergence = P[a] * gradient.s[a];
       Vec<D> lap_lap_p = Vec<D>::Zero();
-      if constexpr (Dissipation::active)
+      double lap_lap_J = 0;
+      if constexpr (dissipates)
         lap_lap_p = -dissipation.laplacian.sum[a] * dissipation.lap_p[a];
+      if constexpr (dissipates_J)
+        lap_lap_J = -dissipation.laplacian.sum[a] * dissipation.lap_J[a];
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const std::int32_t b = neighbours.column[e];
         divergence += P[b] * gradient.t[e];
-        if constexpr (Dissipation::active)
+        if constexpr (dissipates)
           lap_lap_p += dissipation.laplacian.l[e] * dissipation.lap_p[b];
+        if constexpr (dissipates_J)
+          lap_lap_J += dissipation.laplacian.l[e] * dissipation.lap_J[b];
       }
       T[a] = divergence;
       R.p[a] = divergence;
-      if constexpr (Dissipation::active)
-        R.p[a] -= dissipation.kappa4_delta3 * (wave_speed / stretch[a]) * lap_lap_p;
+      if constexpr (dissipates)
+        R.p[a] +=
+            wave[a] * (dissipation.second(a) * dissipation.lap_p[a] - dissipation.fourth(a) * lap_lap_p);
+      if constexpr (dissipates_J) {
+        dissipation.rate_J[a] =
+            wave[a] * (dissipation.second(a) * dissipation.lap_J[a] - dissipation.fourth_J(a) * lap_lap_J);
+        R.J[a] += dissipation.rate_J[a];
+      }
     });
   }
+
+  double involution_;                   ///< xi / Delta, 1/m
+  std::vector<Mat<D>> gradient_of_x_{}; ///< F where no field evolves it
 };
 
 } // namespace tessera::solver

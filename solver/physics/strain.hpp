@@ -1,7 +1,10 @@
-/// The strain measures of the mixed formulation, by value.
+/// The strain measures of the mixed formulation, by value and as fields.
 #pragma once
 
 #include "core/tensor.hpp"
+
+#include <cstdint>
+#include <span>
 
 namespace tessera::solver {
 
@@ -27,5 +30,33 @@ inline Mat3 embed(const Mat<2>& F) {
   F3.topLeftCorner<2, 2>() = F;
   return F3;
 }
+
+/// A velocity gradient in three dimensions: nothing moves across the plane.
+inline Mat3 embed_rate(const Mat<3>& G) {
+  return G;
+}
+inline Mat3 embed_rate(const Mat<2>& G) {
+  Mat3 G3 = Mat3::Zero();
+  G3.topLeftCorner<2, 2>() = G;
+  return G3;
+}
+
+/// The strains of all particles; H and J are empty where they are taken from F.
+template <int D>
+struct StrainFields {
+  std::span<const Mat<D>> F;
+  std::span<const Mat3> H;
+  std::span<const double> J;
+
+  Strain operator[](std::int64_t a) const {
+    const auto i = static_cast<std::size_t>(a);
+    Strain strain = Strain::of(embed(F[i]));
+    if (!H.empty())
+      strain.H = H[i];
+    if (!J.empty())
+      strain.J = J[i];
+    return strain;
+  }
+};
 
 } // namespace tessera::solver

@@ -4,7 +4,6 @@
 #include "core/frame.hpp"
 #include "core/parallel.hpp"
 #include "solver/physics/body.hpp"
-#include "solver/physics/law.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"
@@ -34,12 +33,11 @@ class FrameArrays {
       }
       // The law is asked again for all nine components: in plane strain the body keeps only those of the
       // plane.
-      auto memory = body.history[a];
       const Strain strain = body.strain(a);
-      const Mat3 sigma = cauchy(body.law.piola(strain, memory), strain.F, strain.J);
+      const Mat3 sigma = cauchy(body.material->piola(strain, a), strain.F, strain.J);
       pressure_[a] = tessera::solver::pressure(sigma);
       von_mises_[a] = tessera::solver::von_mises(sigma);
-      plastic_strain_[a] = equivalent_plastic_strain(body.law, body.history[a]);
+      plastic_strain_[a] = body.material->equivalent_plastic_strain(a);
       jacobian_[a] = strain.J;
       id_[a] = static_cast<double>(a);
       const double components[6] = {sigma(0, 0), sigma(1, 1), sigma(2, 2),
@@ -63,7 +61,7 @@ class FrameArrays {
   }
 
   ProbeFields probe_fields(const ParticleCloud& cloud) const {
-    return {cloud.X, displacement_, velocity_, plastic_strain_, von_mises_, pressure_};
+    return {cloud.X, displacement_, velocity_, plastic_strain_, von_mises_, pressure_, jacobian_};
   }
 
   /// Widens the largest and smallest values seen so far to these fields.
@@ -103,8 +101,7 @@ Energies energies(const Body& body, const Step<Body>& ledger) {
   using Sums = Eigen::Vector3d;
   const Sums sums = sum(body.size(), Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
     return body.V[a] * Sums(body.U.p[a].squaredNorm() / (2 * body.density),
-                            body.law.energy(body.strain(a), body.history[a]),
-                            plastic_work(body.law, body.history[a]));
+                            body.material->energy(body.strain(a), a), body.material->plastic_work(a));
   });
   return {sums[0], sums[1], sums[2], ledger.dissipated(), ledger.external(), 0};
 }

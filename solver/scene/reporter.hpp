@@ -3,6 +3,7 @@
 
 #include "core/history_columns.hpp"
 #include "solver/scene/assemble.hpp"
+#include "solver/scene/error_norms.hpp"
 #include "solver/scene/observer.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -70,6 +71,10 @@ class Reporter {
     for (std::size_t i = 0; i < probes_.size(); ++i)
       summary.probes.emplace_back(column_name(scene_.probes[i]),
                                   probes_[i].read(arrays_.probe_fields(cloud_)));
+    if (scene_.exact) {
+      const ProbeFields fields = arrays_.probe_fields(cloud_);
+      summary.error = error_norms(*scene_.exact, summary.time, cloud_, fields.velocity, fields.pressure);
+    }
   }
 
  private:
@@ -114,7 +119,7 @@ class Reporter {
                                energy_.balance_error};
     row.insert(row.end(), m.linear.begin(), m.linear.end());
     row.insert(row.end(), m.angular.begin(), m.angular.end());
-    for (const ProbeReader& probe : probes_)
+    for (ProbeReader& probe : probes_)
       row.push_back(probe.read(arrays_.probe_fields(cloud_)));
     outputs_.history_row(row);
   }

@@ -1,53 +1,49 @@
-#include "solver/physics/materials/hencky.hpp"
-#include "solver/physics/materials/linear_elastic.hpp"
-#include "solver/physics/materials/mooney_rivlin.hpp"
-#include "solver/physics/materials/neo_hookean.hpp"
-#include "solver/physics/materials/ogden.hpp"
-#include "solver/physics/materials/saint_venant_kirchhoff.hpp"
-#include "solver/physics/plasticity/hardening.hpp"
-#include "solver/physics/plasticity/von_mises.hpp"
-#include "solver/scene/run_law.hpp"
+#include "solver/physics/formulation.hpp"
+#include "solver/scene/make_material.hpp"
+#include "solver/scene/run_formulation.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace tessera::solver {
 namespace {
 
-/// Calls use(law) with the law of a validated material.
+/// Calls use.operator()<Formulation>() with the formulation of a validated scene.
+template <int D, class Use>
+auto with_formulation(const std::string& name, Use&& use) {
+  if (name == Displacement<D>::name)
+    return use.template operator()<Displacement<D>>();
+  if (name == PFJ<D>::name)
+    return use.template operator()<PFJ<D>>();
+  if (name == PFHJ<D>::name)
+    return use.template operator()<PFHJ<D>>();
+  return use.template operator()<PF<D>>();
+}
+
 template <class Use>
-auto with_law(const MaterialSpec& material, Use&& use) {
-  if (material.law == "mooney_rivlin")
-    return use(MooneyRivlin{material.c1, material.c2, material.bulk});
-  if (material.law == "ogden") {
-    Ogden ogden{{}, material.bulk};
-    for (std::size_t p = 0; p < material.mu.size(); ++p)
-      ogden.terms.push_back({material.mu[p], material.alpha[p]});
-    return use(ogden);
-  }
-  const ElasticConstants elastic = ElasticConstants::from(material.young, material.poisson);
-  if (material.law == "linear_elastic")
-    return use(LinearElastic{elastic});
-  if (material.law == "saint_venant_kirchhoff")
-    return use(SaintVenantKirchhoff{elastic});
-  if (material.law == "neo_hookean")
-    return use(NeoHookean{elastic});
-  const Hencky hencky{elastic};
-  if (!material.plasticity)
-    return use(hencky);
-  const LinearHardening hardening{material.plasticity->yield, material.plasticity->hardening};
-  return use(VonMises<LinearHardening>{hencky, hardening});
+auto with_formulation(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
+  cloud.validate("");
+  const std::string name = chosen_formulation(scene);
+  return cloud.dimension == 3 ? with_formulation<3>(name, use) : with_formulation<2>(name, use);
 }
 
 } // namespace
 
+std::string chosen_formulation(const SceneSpec& scene) {
+  if (scene.formulation != "auto")
+    return scene.formulation;
+  constexpr double nearly_incompressible = 0.49;
+  // Poisson's ratio as written may miss 0.49 by a rounding once it has been moduli.
+  return linearised(scene.material).poisson() > nearly_incompressible - 1e-9 ? PFJ<3>::name : PF<3>::name;
+}
+
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress) {
-  cloud.validate("");
-  return with_law(scene.material,
-                  [&](const auto& law) { return run_law(law, scene, cloud, outputs, progress); });
+  return with_formulation(scene, cloud, [&]<class Formulation>() {
+    return run_formulation<Formulation>(scene, cloud, outputs, progress);
+  });
 }
 
 Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud) {
-  cloud.validate("");
-  return with_law(scene.material, [&](const auto& law) { return forecast_law(law, scene, cloud); });
+  return with_formulation(
+      scene, cloud, [&]<class Formulation>() { return forecast_formulation<Formulation>(scene, cloud); });
 }
 
 } // namespace tessera::solver

@@ -1,9 +1,10 @@
-/// A validated scene and the run of it: the only place where formulation and law are chosen at run time.
+/// A scene and the run of it: the only place where formulation and law are chosen at run time.
 #pragma once
 
 #include "core/frame.hpp"
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
+#include "solver/physics/jst.hpp"
 #include "solver/scene/expression.hpp"
 
 #include <array>
@@ -33,16 +34,28 @@ struct MaterialSpec {
   double bulk = 0;                   ///< of mooney_rivlin and ogden, Pa
 };
 
-/// v(X) at time zero on a set ("all": every particle); later entries overwrite earlier ones.
-struct InitialVelocity {
+/// Of a set ("all": every particle) at time zero; later entries overwrite earlier ones.
+struct InitialCondition {
   std::string on = "all";
-  std::array<Expression, 3> velocity; ///< m/s
+  std::optional<Formulas> velocity{};     ///< m/s
+  std::optional<Formulas> displacement{}; ///< m; the strains follow from it
 };
 
-/// Velocity components held at zero on a set: clamped holds all three.
-struct FixedCondition {
+/// What holds or loads a set while the body moves: table 2.4 of the thesis, and body forces.
+struct BoundaryCondition {
+  enum class Kind {
+    fixed,          ///< velocity components held at zero: clamped where all are
+    sliding,        ///< no velocity along the surface's normal (symmetric)
+    skew_symmetric, ///< none in the surface's plane
+    velocity,       ///< velocity components as `values` say, m/s
+    traction,       ///< Pa on the reference surface, in a direction that stays
+    pressure,       ///< Pa on the surface as it deforms, pushing where positive
+    body_force      ///< acceleration, m/s^2
+  };
+  Kind kind = Kind::fixed;
   std::string on;
-  std::array<bool, 3> component = {true, true, true};
+  std::array<bool, 3> component = {true, true, true}; ///< of fixed and velocity
+  std::vector<Expression> values{};                   ///< none, one (pressure) or three
 };
 
 /// Frictionless rigid plane: particles stay on the side its normal points to.
@@ -56,28 +69,41 @@ struct PlaneWall {
 struct Probe {
   std::string name;
   std::string quantity; ///< x y z radius (current position, radius about the Z axis; m) ux uy uz (m) vx vy vz
-                        ///< (m/s) plastic_strain von_mises pressure (Pa)
+                        ///< (m/s) angle (turned about the Z axis, degrees, beyond full turns) plastic_strain
+                        ///< von_mises pressure (Pa) J
   std::string reduce;   ///< max, min, mean, extent (max - min) over the set
   std::string on = "all";
+  std::optional<Vec3> at{};   ///< instead of a set: the body's point at this reference position, m
+  Vec3 centre = Vec3::Zero(); ///< the axis of radius and angle passes through it, m
+};
+
+/// A closed form to measure a run by.
+struct ExactSolution {
+  Formulas velocity;   ///< m/s
+  Expression pressure; ///< tr sigma / 3, Pa
 };
 
 struct SceneSpec {
   MaterialSpec material;
-  std::string formulation = "auto"; ///< auto, pF
+  std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
   std::string scheme = "thesis";    ///< thesis
   std::string kernel = "wendland";  ///< wendland
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
   /// particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
-  int neighbours = 0;    ///< 0: 30 in space, 14 in the plane
-  double jst4 = 1.0 / 8; ///< kappa4 of (3.85)
-  double cfl = 0.3;      ///< sigma of (3.93)
+  int neighbours = 0;                 ///< 0: 30 in space, 14 in the plane
+  std::optional<Kappa4> jst4{};       ///< kappa4 of (3.85); absent: 1/8, none with displacements
+  double jst2 = 0;                    ///< kappa2 of (3.84)
+  std::optional<double> jst4_J{};     ///< kappa4 of the volume map; absent: that of the momentum
+  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2
+  double cfl = 0.3;                   ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s
-  std::vector<InitialVelocity> initial;
-  std::vector<FixedCondition> fixed;
+  std::vector<InitialCondition> initial;
+  std::vector<BoundaryCondition> boundary;
   std::vector<PlaneWall> walls;
   std::vector<Probe> probes;
+  std::optional<ExactSolution> exact;
   int frames = 20;         ///< equally spaced in time, besides the one at time zero
   int history_rows = 1000; ///< equally spaced in time, besides the one at time zero
 };
@@ -94,6 +120,15 @@ struct Extremes {
   double pressure = -std::numeric_limits<double>::infinity(); ///< Pa, positive in tension
   double displacement = 0;                                    ///< m
   double jacobian = std::numeric_limits<double>::infinity();  ///< the smallest
+};
+
+/// Differences from the exact solution at the end, (5.3): L1 = sum V |e|, L2 = sqrt(sum V |e|^2).
+struct ErrorNorms {
+  double l1_velocity = 0, l2_velocity = 0; ///< m/s times m^3 and m^(3/2)
+  double l2_velocity_relative = 0;         ///< over the norm of the exact velocity
+  double l2_velocity_thesis = 0;           ///< sqrt(sum (V |e|)^2), which table 5.1 lists
+  double l1_pressure = 0, l2_pressure = 0; ///< Pa times m^3 and m^(3/2)
+  double l2_pressure_relative = 0;
 };
 
 /// What a run came to; keys of summary.json carry the same names.
@@ -113,6 +148,7 @@ struct Summary {
   Extremes extremes;
   Vec3 extent_min = Vec3::Zero(), extent_max = Vec3::Zero(); ///< of the last positions, m
   std::vector<std::pair<std::string, double>> probes;        ///< last value of each
+  std::optional<ErrorNorms> error;
 };
 
 /// What a scene would need, found without running it.
@@ -123,6 +159,7 @@ struct Forecast {
   std::int64_t steps = 0; ///< end_time / dt: more when the body is compressed
   double neighbours_mean = 0;
   double bytes_per_particle = 0;
+  std::vector<std::pair<std::string, double>> bytes_by_formulation; ///< the same of every formulation
   double seconds = 0; ///< estimated from a few steps actually taken
   std::vector<std::string> modelled, left_out;
 };
@@ -133,6 +170,9 @@ struct Outputs {
   std::function<void(const std::vector<std::string>& columns)> history_columns;
   std::function<void(const std::vector<double>& row)> history_row;
 };
+
+/// The formulation a scene is run in: "auto" means {p, F}, and {p, F, J} from a Poisson's ratio of 0.49 on.
+std::string chosen_formulation(const SceneSpec& scene);
 
 /// Checks that needs no cloud: ranges and names. `where(key)` turns a key such as "material.poisson" into
 /// file:line:column for the message. InputError.

@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "solver/operators/kernel.hpp"
 #include "solver/physics/materials/catalogue.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
@@ -85,15 +86,33 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
            "zero or positive (Pa)");
   }
 
-  name("solver.formulation", scene.formulation, {"auto", "pF"});
+  name("solver.formulation", scene.formulation, {"auto", "displacement", "pF", "pFJ", "pFHJ"});
   name("solver.scheme", scene.scheme, {"thesis"});
-  name("solver.kernel", scene.kernel, {"wendland"});
+  name("solver.kernel", scene.kernel, kernel_names());
   if (scene.support)
     number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
            "above 1 and at most 6 (kernel radius over the spacing)");
   number("solver.neighbours", scene.neighbours,
          scene.neighbours == 0 || (scene.neighbours >= 8 && scene.neighbours <= 200), "from 8 to 200");
-  number("solver.jst4", scene.jst4, scene.jst4 >= 0 && scene.jst4 <= 1, "from 0 to 1");
+  if (scene.jst4) {
+    for (double kappa4 : {scene.jst4->elastic, scene.jst4->plastic})
+      number("solver.jst4", kappa4, kappa4 >= 0 && kappa4 <= 1, "from 0 to 1");
+    number("solver.jst4.strain", scene.jst4->strain, scene.jst4->strain > 0, "positive");
+  }
+  number("solver.jst2", scene.jst2, scene.jst2 >= 0 && scene.jst2 <= 2, "from 0 to 2");
+  const std::string formulation = chosen_formulation(scene);
+  const bool evolves_J = formulation == "pFJ" || formulation == "pFHJ";
+  const auto only_with_J = [&](const std::string& key, const std::optional<double>& value, double most) {
+    if (!value)
+      return;
+    require(
+        evolves_J,
+        fmt::format("{} is given, but the formulation is \"{}\", which does not evolve J", key, formulation),
+        where(key), "leave it out, or choose \"pFJ\" or \"pFHJ\"");
+    number(key, *value, *value >= 0 && *value <= most, fmt::format("from 0 to {:g}", most));
+  };
+  only_with_J("solver.jst4_J", scene.jst4_J, 1);
+  only_with_J("solver.involution", scene.involution, 1);
   number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
 
@@ -104,9 +123,9 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     number(fmt::format("wall.{}.restitution", i), wall.restitution,
            wall.restitution >= 0 && wall.restitution <= 1, "from 0 to 1");
   }
-  for (std::size_t i = 0; i < scene.fixed.size(); ++i) {
-    const auto& c = scene.fixed[i].component;
-    require(c[0] || c[1] || c[2], "no component is fixed", where(fmt::format("boundary.{}.components", i)),
+  for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
+    const auto& c = scene.boundary[i].component;
+    require(c[0] || c[1] || c[2], "no component is held", where(fmt::format("boundary.{}.components", i)),
             "name at least one of \"x\", \"y\", \"z\"");
   }
 
@@ -115,7 +134,8 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     const Probe& probe = scene.probes[i];
     const std::string key = fmt::format("output.probe.{}", i);
     name(key + ".quantity", probe.quantity, probe_quantities());
-    name(key + ".reduce", probe.reduce, probe_reductions());
+    if (!probe.at)
+      name(key + ".reduce", probe.reduce, probe_reductions());
     require(seen.insert(column_name(probe)).second, fmt::format("two probes are named '{}'", probe.name),
             where(key + ".name"), "give each its own name");
   }

@@ -50,4 +50,14 @@ void project_momentum(std::span<Vec<D>> R, std::span<const Vec<D>> Gamma, std::s
   }
 }
 
+/// Takes the mean of the dissipation D^J (1/s, already part of R) off the rates R of the volume map, so that
+/// it keeps sum V J, (3.120).
+inline void project_volume(std::span<double> R, std::span<const double> D_J, std::span<const double> V) {
+  const auto n = static_cast<std::int64_t>(R.size());
+  const Eigen::Vector2d sums = sum(n, Eigen::Vector2d(0, 0), [&](std::int64_t a) -> Eigen::Vector2d {
+    return V[a] * Eigen::Vector2d(D_J[a], 1);
+  });
+  for_each(n, [&](std::int64_t a) { R[a] -= sums[0] / sums[1]; });
+}
+
 } // namespace tessera::solver

@@ -22,13 +22,30 @@ void average(std::vector<T>& u, const std::vector<T>& u_n, double dt, const std:
            [&](std::int64_t a) { u[a] = 0.5 * (u_n[a] + u[a] + dt * r[a]); });
 }
 
+/// Calls use(u, others...) for each field of a tuple of them and its namesakes in other tuples.
+template <class Use, class Fields, class... Others>
+void for_each_field(Use&& use, Fields fields, Others... others) {
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    const auto one = [&](auto index) { use(std::get<index>(fields), std::get<index>(others)...); };
+    (one(std::integral_constant<std::size_t, i>{}), ...);
+    static_cast<void>(one); // displacements have no strain fields
+  }
+  (std::make_index_sequence<std::tuple_size_v<Fields>>{});
+}
+
 /// The first stage for every field of a formulation.
 template <class Formulation>
 void advance(Formulation& U, double dt, const Formulation& R) {
-  const auto each = [&]<std::size_t... i>(std::index_sequence<i...>) {
-    (advance(std::get<i>(U.fields()), dt, std::get<i>(R.fields())), ...);
-  };
-  each(std::make_index_sequence<std::tuple_size_v<decltype(U.fields())>>{});
+  advance(U.x, dt, R.x);
+  advance(U.p, dt, R.p);
+  for_each_field([&](auto& u, const auto& r) { advance(u, dt, r); }, U.strains(), R.strains());
+}
+
+/// The second stage for the strains of a formulation.
+template <class Formulation>
+void average_strains(Formulation& U, const Formulation& U_n, double dt, const Formulation& R) {
+  for_each_field([&](auto& u, const auto& u_n, const auto& r) { average(u, u_n, dt, r); }, U.strains(),
+                 U_n.strains(), R.strains());
 }
 
 } // namespace tessera::solver

@@ -1,58 +1,75 @@
 /// One step of the mixed scheme: stages, momentum projection, conditions, and the ledger of work done.
 #pragma once
 
-#include "solver/boundary/fixed.hpp"
+#include "solver/boundary/held_velocity.hpp"
+#include "solver/boundary/loads.hpp"
 #include "solver/boundary/wall.hpp"
 #include "solver/physics/body.hpp"
 #include "solver/time/momentum_projection.hpp"
 #include "solver/time/runge_kutta.hpp"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace tessera::solver {
+
+/// What acts on a body from outside.
+template <int D>
+struct Conditions {
+  std::vector<Vec3> X; ///< reference positions, m
+  HeldVelocities<D> held;
+  std::vector<std::unique_ptr<Load<D>>> loads;
+  std::vector<Plane<D>> walls;
+};
 
 template <class Body>
 class Step {
  public:
   static constexpr int D = Body::dimension;
 
-  Step(std::vector<Fixed<D>> fixed, std::vector<Plane<D>> walls, bool momentum_projection)
-      : fixed_(std::move(fixed)), walls_(std::move(walls)), projects_(momentum_projection) {}
+  Step(Conditions<D> conditions, bool momentum_projection)
+      : outside_(std::move(conditions)), projects_(momentum_projection),
+        works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()) {}
 
   double dissipated() const { return dissipated_; } ///< J, by JST and the momentum projection
-  double external() const { return external_; }     ///< J, work done on the body by walls
+  double external() const { return external_; }     ///< J, work done on the body from outside
+
+  bool works() const { return works_; } ///< whether anything outside may work on the body
 
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
-    if (!walls_.empty())
-      contact_.assign(body.V.size(), Vec<D>::Zero());
-    for (const Fixed<D>& condition : fixed_)
-      condition.apply(body.U.p);
+    if (works_)
+      external_impulse_.assign(body.V.size(), Vec<D>::Zero());
+    if (!outside_.loads.empty())
+      force_.assign(body.V.size(), Vec<D>::Zero());
+    outside_.held.apply(body.U.p, body.density, 0, 0, external_impulse_);
     before_ = body.U;
-    hold(body, dt, 1.0);
+    hold(body, 0, dt, 1.0);
     account(body);
   }
 
-  /// U^n to U^(n+1). On Breakdown the body is back at U^n and the exception goes on.
-  void operator()(Body& body, double dt) {
+  /// U^n to U^(n+1), from `time` over dt. On Breakdown the body is back at U^n and the exception goes on.
+  void operator()(Body& body, double time, double dt) {
     auto& U = body.U;
     auto& R = body.R;
     before_ = U;
     try {
       body.rates();
-      project(body, U.x, dt);
+      conserve(body, U.x, dt);
+      load(body, time, dt);
       advance(U, dt, R);
-      hold(body, dt, 0.5);
+      hold(body, time + dt, dt, 0.5);
       body.stresses();
 
       body.rates();
       average(U.x, before_.x, dt, R.x);
-      project(body, U.x, dt);
+      conserve(body, U.x, dt);
+      load(body, time + dt, dt);
       average(U.p, before_.p, dt, R.p);
-      average(U.F, before_.F, dt, R.F);
-      hold(body, dt, 1.0);
+      average_strains(U, before_, dt, R);
+      hold(body, time + dt, dt, 1.0);
       body.commit();
     } catch (const Breakdown&) {
       body.U = before_;
@@ -63,19 +80,35 @@ class Step {
   }
 
  private:
-  /// Makes the nodal forces self-equilibrated about Gamma, and notes what is not the divergence of P.
-  void project(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
-    if (projects_)
+  /// Makes the nodal forces self-equilibrated about Gamma and the dissipation of J free of net volume,
+  /// (3.120); notes what is not the divergence of P.
+  void conserve(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
+    if (projects_) {
       project_momentum<D>(body.R.p, Gamma, body.V);
+      if constexpr (Body::dissipates_J)
+        project_volume(body.R.J, body.dissipation.rate_J, body.V);
+    }
     for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
   }
 
-  /// Essential conditions and contact on the momenta of a stage; `share` of a change reaches U^(n+1).
-  void hold(Body& body, double dt, double share) {
-    for (const Plane<D>& wall : walls_)
-      wall.apply(body.U.x, body.U.p, body.density, dt, share, contact_);
-    for (const Fixed<D>& condition : fixed_)
-      condition.apply(body.U.p);
+  /// Forces from outside, which the projection must not see.
+  void load(Body& body, double time, double dt) {
+    if (outside_.loads.empty())
+      return;
+    for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
+    for (const auto& load : outside_.loads)
+      load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
+    for_each(body.size(), [&](std::int64_t a) {
+      body.R.p[a] += force_[a];
+      external_impulse_[a] += 0.5 * dt * force_[a];
+    });
+  }
+
+  /// Contact and essential conditions on the momenta of a stage; `share` of a change reaches U^(n+1).
+  void hold(Body& body, double time, double dt, double share) {
+    for (const Plane<D>& wall : outside_.walls)
+      wall.apply(body.U.x, body.U.p, body.density, dt, share, external_impulse_);
+    outside_.held.apply(body.U.p, body.density, time, share, external_impulse_);
   }
 
   /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
@@ -88,16 +121,17 @@ class Step {
       return work;
     };
     dissipated_ -= work_of(numerical_);
-    if (!walls_.empty())
-      external_ += work_of(contact_);
+    if (works_)
+      external_ += work_of(external_impulse_);
   }
 
-  std::vector<Fixed<D>> fixed_;
-  std::vector<Plane<D>> walls_;
+  Conditions<D> outside_;
   bool projects_;
+  bool works_;
   typename Body::Formulation before_;
-  std::vector<Vec<D>> numerical_; ///< impulse of dissipation and projection in this step, kg/(m^2 s)
-  std::vector<Vec<D>> contact_;   ///< impulse of the walls in this step, kg/(m^2 s)
+  std::vector<Vec<D>> force_;            ///< of the loads, N/m^3
+  std::vector<Vec<D>> numerical_;        ///< impulse of dissipation and projection in this step, kg/(m^2 s)
+  std::vector<Vec<D>> external_impulse_; ///< of walls, loads and moving boundaries in this step, kg/(m^2 s)
   double dissipated_ = 0;
   double external_ = 0;
 };

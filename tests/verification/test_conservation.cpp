@@ -12,7 +12,8 @@ namespace {
 SceneSpec spinning_cube() {
   SceneSpec scene;
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
-  scene.initial.push_back({"all", {Expression("-105*(Y-0.5)"), Expression("105*(X-0.5)"), Expression("0")}});
+  scene.initial.push_back(
+      {"all", Formulas{Expression("-105*(Y-0.5)"), Expression("105*(X-0.5)"), Expression("0")}});
   scene.end_time = 1;
   scene.history_rows = 100;
   return scene;
@@ -66,7 +67,7 @@ TEST(SpinningCube, LosesAngularMomentumWithoutTheProjection) {
 
 TEST(SpinningCube, GainsEnergyWithoutDissipation) {
   SceneSpec scene = spinning_cube();
-  scene.jst4 = 0;
+  scene.jst4 = Kappa4::constant(0);
   const Worst worst = spin(scene);
   EXPECT_GT(worst.last_energy, worst.first_energy);
   EXPECT_LT(worst.angular, 1e-12);

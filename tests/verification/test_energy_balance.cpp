@@ -27,10 +27,10 @@ double balance_error(SceneSpec scene, const ParticleCloud& cloud, double cfl) {
 
 TEST(EnergyBalance, OfAnElasticBodyIsOfThirdOrderInTheStep) {
   SceneSpec scene;
-  scene.jst4 = 0;
+  scene.jst4 = Kappa4::constant(0);
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
-  scene.initial.push_back({"all", {Expression("0"), Expression("0.5*Z"), Expression("3*Z")}});
-  scene.fixed.push_back({"base", {true, true, true}});
+  scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0.5*Z"), Expression("3*Z")}});
+  scene.boundary.push_back({BoundaryCondition::Kind::fixed, "base"});
   scene.end_time = 0.02;
   const auto cloud = test::box_lattice(5, 5, 9, Vec3(0.5, 0.5, 1));
   // Heun's method amplifies an oscillation by 1 + (omega dt)^4 / 8 a step, which is third order over a given
@@ -43,8 +43,8 @@ TEST(EnergyBalance, OfAnElasticBodyIsOfThirdOrderInTheStep) {
 TEST(EnergyBalance, OfAPlasticImpactConvergesWithTheStep) {
   SceneSpec scene;
   scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
-  scene.jst4 = 1.0 / 4096;
-  scene.initial.push_back({"all", {Expression("0"), Expression("0"), Expression("-227")}});
+  scene.jst4 = Kappa4::constant(1.0 / 4096);
+  scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0"), Expression("-227")}});
   scene.walls.push_back({});
   scene.end_time = 3e-6;
   const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);

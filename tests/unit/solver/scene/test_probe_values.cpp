@@ -12,14 +12,14 @@ namespace {
 struct TwoParticles {
   ParticleCloud cloud;
   std::vector<double> u = {0, 0, 0, 3, 4, -1}, v = {1, 0, 0, 2, 0, 0}, eps = {0.5, 0.25}, mises = {1e6, 3e6},
-                      pr = {-1, 1};
+                      pr = {-1, 1}, J = {1, 1};
 
   TwoParticles() {
     cloud.X = {Vec3(1, 0, 0), Vec3(0, 0, 5)};
     cloud.sets = {{"top", {1}, {}}};
   }
   double read(const std::string& quantity, const std::string& reduce, const std::string& on = "all") const {
-    return ProbeReader({"p", quantity, reduce, on}, cloud).read({cloud.X, u, v, eps, mises, pr});
+    return ProbeReader({"p", quantity, reduce, on}, cloud).read({cloud.X, u, v, eps, mises, pr, J});
   }
 };
 

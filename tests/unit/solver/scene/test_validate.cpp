@@ -15,7 +15,7 @@ SceneSpec good() {
   scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
   scene.end_time = 1e-5;
   scene.walls.push_back({});
-  scene.fixed.push_back({"base", {true, false, false}});
+  scene.boundary.push_back({BoundaryCondition::Kind::fixed, "base", {true, false, false}});
   scene.probes.push_back({"radius", "radius", "max", "all"});
   return scene;
 }
@@ -104,15 +104,17 @@ TEST(Validate, RefusesImpossibleValues) {
   EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity->hardening = -1; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.formulation = "pFJ2"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.scheme = "best"; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.kernel = "cubic"; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.kernel = "cubi"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.support = 1.0; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.neighbours = 3; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.jst4 = -0.1; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.jst4 = Kappa4::constant(-0.1); }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.jst2 = -1; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.involution = 0.2; }), ""); // nothing to tie where J is not evolved
   EXPECT_NE(message([](SceneSpec& s) { s.cfl = 0; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.end_time = INFINITY; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.walls[0].normal.setZero(); }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.walls[0].restitution = 1.1; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.fixed[0].component = {false, false, false}; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.boundary[0].component = {false, false, false}; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.probes[0].quantity = "temperature"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.probes[0].reduce = "median"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.probes.push_back(s.probes[0]); }), "");

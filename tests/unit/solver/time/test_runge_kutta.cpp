@@ -1,6 +1,6 @@
 #include "solver/time/runge_kutta.hpp"
 
-#include "solver/physics/pf.hpp"
+#include "solver/physics/formulation.hpp"
 
 #include <gtest/gtest.h>
 

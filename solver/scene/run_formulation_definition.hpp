@@ -1,10 +1,11 @@
-/// Bodies of run_law and forecast_law, for the one source file of each law that instantiates them.
+/// Bodies of run_formulation and forecast_formulation, for the one source file of each formulation that
+/// instantiates them.
 #pragma once
 
 #include "core/interrupt.hpp"
 #include "solver/scene/assemble.hpp"
 #include "solver/scene/reporter.hpp"
-#include "solver/scene/run_law.hpp"
+#include "solver/scene/run_formulation.hpp"
 #include "solver/time/stable_step.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   summary.neighbours_mean = body.neighbours.mean();
   summary.support = *std::max_element(body.neighbours.support.begin(), body.neighbours.support.end());
   summary.threads = threads();
-  summary.bytes_per_particle = bytes_per_particle(body);
+  summary.bytes_per_particle = bytes_of<Body>(assembly);
   summary.dt_min = summary.dt_max = dt;
 
   double time = 0;
@@ -48,7 +49,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
     if (last)
       dt = scene.end_time - time;
     try {
-      step(body, dt);
+      step(body, time, dt);
     } catch (const Breakdown& breakdown) {
       reporter.last(time, summary.steps, dt);
       const Vec3 X = cloud.X[breakdown.particle];
@@ -81,6 +82,41 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   return summary;
 }
 
+/// What a scene models, and what it leaves out with the reason.
+template <class Body>
+void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
+  const auto place = [&](bool present, const std::string& what, const std::string& why_not) {
+    if (present)
+      forecast.modelled.push_back(what);
+    else
+      forecast.left_out.push_back(fmt::format("{} ({})", what, why_not));
+  };
+  using Kind = BoundaryCondition::Kind;
+  const auto any = [&](std::initializer_list<Kind> kinds) {
+    return std::any_of(scene.boundary.begin(), scene.boundary.end(), [&](const BoundaryCondition& c) {
+      return std::find(kinds.begin(), kinds.end(), c.kind) != kinds.end();
+    });
+  };
+  using Formulation = typename Body::Formulation;
+  place(true, fmt::format("{} in {} dimensions, {}", Formulation::title, Body::dimension, scene.material.law),
+        "");
+  place(scene.material.plasticity.has_value(), "von Mises plasticity", "no [material.plasticity]");
+  place(Body::dissipates, "JST dissipation", "solver.jst4 = 0");
+  if constexpr (Body::dissipates)
+    place(scene.jst2 > 0, "JST's shock term", "solver.jst2 = 0");
+  if constexpr (Formulation::evolves_J) {
+    place(Body::dissipates_J, "JST dissipation of J", "solver.jst4_J = 0");
+    place(chosen_involution(scene) > 0, "involution penalty", "solver.involution = 0");
+  }
+  place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");
+  place(any({Kind::fixed, Kind::sliding, Kind::skew_symmetric}), "fixed velocities", "no such [[boundary]]");
+  place(any({Kind::velocity}), "moving boundaries", "no such [[boundary]]");
+  place(any({Kind::traction, Kind::pressure}), "surface loads", "no such [[boundary]]");
+  place(any({Kind::body_force}), "body forces", "no such [[boundary]]");
+  place(!scene.walls.empty(), "contact with rigid tools", "no [[wall]]");
+  static_cast<void>(body);
+}
+
 template <class Body>
 Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   auto& [body, step, distance] = assembly;
@@ -90,45 +126,41 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   forecast.dt = stable_step(body, scene.cfl, distance);
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
-  forecast.bytes_per_particle = bytes_per_particle(body);
-
-  constexpr bool jst = decltype(body.dissipation)::active;
-  const auto place = [&](bool present, const std::string& what, const std::string& why_not) {
-    if (present)
-      forecast.modelled.push_back(what);
-    else
-      forecast.left_out.push_back(what + " (" + why_not + ")");
+  forecast.bytes_per_particle = bytes_of<Body>(assembly);
+  constexpr int D = Body::dimension;
+  const auto bytes = [&]<class Formulation, class Dissipation>() {
+    forecast.bytes_by_formulation.emplace_back(
+        Formulation::name, bytes_per_particle<Formulation, Dissipation>(
+                               body.neighbours.mean(), body.material->history_bytes(), step.works()));
   };
-  place(true, fmt::format("{{p, F}} in {} dimensions, {}", Body::dimension, scene.material.law), "");
-  place(scene.material.plasticity.has_value(), "von Mises plasticity", "no [material.plasticity]");
-  place(jst, "JST dissipation", "solver.jst4 = 0");
-  place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");
-  place(!scene.fixed.empty(), "fixed velocities", "no [[boundary]]");
-  place(!scene.walls.empty(), "contact with rigid planes", "no [[wall]]");
+  bytes.template operator()<Displacement<D>, NoDissipation>();
+  bytes.template operator()<PF<D>, Jst<D>>();
+  bytes.template operator()<PFJ<D>, JstWithJ<D>>();
+  bytes.template operator()<PFHJ<D>, JstWithJ<D>>();
+  list_models(scene, body, forecast);
 
   // A few real steps on this machine; the first warms the caches.
   step.start(body, forecast.dt);
-  step(body, forecast.dt);
+  step(body, 0, forecast.dt);
   constexpr int tried = 4;
   const double start = seconds_now();
-  for (int i = 0; i < tried; ++i)
-    step(body, forecast.dt);
+  for (int i = 1; i <= tried; ++i)
+    step(body, i * forecast.dt, forecast.dt);
   forecast.seconds = (seconds_now() - start) / tried * static_cast<double>(forecast.steps);
   return forecast;
 }
 
-template <class L>
-Summary run_law(const L& law, const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
-                Progress& progress) {
-  return with_dimension(scene, cloud, law, [&](auto& assembly) {
-    return run_assembly(scene, cloud, outputs, progress, assembly);
-  });
+template <class Formulation>
+Summary run_formulation(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
+                        Progress& progress) {
+  return with_assembly<Formulation>(
+      scene, cloud, [&](auto& assembly) { return run_assembly(scene, cloud, outputs, progress, assembly); });
 }
 
-template <class L>
-Forecast forecast_law(const L& law, const SceneSpec& scene, const ParticleCloud& cloud) {
-  return with_dimension(scene, cloud, law,
-                        [&](auto& assembly) { return forecast_assembly(scene, assembly); });
+template <class Formulation>
+Forecast forecast_formulation(const SceneSpec& scene, const ParticleCloud& cloud) {
+  return with_assembly<Formulation>(scene, cloud,
+                                    [&](auto& assembly) { return forecast_assembly(scene, assembly); });
 }
 
 } // namespace tessera::solver

@@ -1,0 +1,78 @@
+/// What a body is made of: a law with the memory of every particle. One virtual call a sweep, none a
+/// particle.
+#pragma once
+
+#include "core/parallel.hpp"
+#include "core/tensor.hpp"
+#include "solver/physics/law.hpp"
+#include "solver/physics/strain.hpp"
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace tessera::solver {
+
+template <int D>
+class Material {
+ public:
+  virtual ~Material() = default;
+
+  /// First Piola-Kirchhoff stresses (Pa) within a step: the histories stay as they are.
+  virtual void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const = 0;
+  /// The step is over: the histories advance to the strains, and P (Pa) follows.
+  virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P) = 0;
+  virtual ElasticConstants linearised() const = 0;
+
+  /// Of particle a, for those who look at the body; P of all nine components in the plane too.
+  virtual Mat3 piola(const Strain& strain, std::int64_t a) const = 0;    ///< Pa
+  virtual double energy(const Strain& strain, std::int64_t a) const = 0; ///< stored, J/m^3
+  virtual double plastic_work(std::int64_t a) const = 0;                 ///< spent, J/m^3
+  virtual double equivalent_plastic_strain(std::int64_t a) const = 0;    ///< -
+  virtual std::size_t history_bytes() const = 0;                         ///< a particle
+};
+
+template <int D, ConstitutiveLaw Law>
+class MaterialOf final : public Material<D> {
+ public:
+  MaterialOf(Law law, std::int64_t particles)
+      : law_(std::move(law)), history_(static_cast<std::size_t>(particles)) {}
+
+  void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const override {
+    for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
+      typename Law::History trial = history_[a];
+      P[a] = law_.piola(strains[a], trial).template topLeftCorner<D, D>();
+    });
+  }
+
+  void commit(const StrainFields<D>& strains, std::span<Mat<D>> P) override {
+    for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
+      P[a] = law_.piola(strains[a], history_[a]).template topLeftCorner<D, D>();
+    });
+  }
+
+  ElasticConstants linearised() const override { return law_.linearised(); }
+
+  Mat3 piola(const Strain& strain, std::int64_t a) const override {
+    typename Law::History trial = history_[a];
+    return law_.piola(strain, trial);
+  }
+  double energy(const Strain& strain, std::int64_t a) const override {
+    return law_.energy(strain, history_[a]);
+  }
+  double plastic_work(std::int64_t a) const override { return solver::plastic_work(law_, history_[a]); }
+  double equivalent_plastic_strain(std::int64_t a) const override {
+    return solver::equivalent_plastic_strain(law_, history_[a]);
+  }
+  std::size_t history_bytes() const override {
+    return std::is_empty_v<typename Law::History> ? 0 : sizeof(typename Law::History);
+  }
+
+ private:
+  Law law_;
+  std::vector<typename Law::History> history_; ///< as of the last commit
+};
+
+} // namespace tessera::solver

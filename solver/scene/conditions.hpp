@@ -1,0 +1,35 @@
+/// From a scene's entries and a cloud's sets to the conditions a step knows, and the state it begins with.
+#pragma once
+
+#include "core/particle_cloud.hpp"
+#include "solver/scene/scene.hpp"
+#include "solver/time/step.hpp"
+
+#include <vector>
+
+namespace tessera::solver {
+
+/// Throws InputError where a set has no surface to slide on or to load, or the body begins behind a wall.
+template <int D>
+Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud);
+
+/// Initial momenta, kg/(m^2 s).
+template <int D>
+std::vector<Vec<D>> initial_momenta(const SceneSpec& scene, const ParticleCloud& cloud);
+
+/// Initial positions, m; empty where the scene displaces nothing.
+template <int D>
+std::vector<Vec<D>> initial_positions(const SceneSpec& scene, const ParticleCloud& cloud);
+
+/// Gives a body at rest the state its scene begins with.
+template <class Body>
+void set_initial(const SceneSpec& scene, const ParticleCloud& cloud, Body& body) {
+  constexpr int D = Body::dimension;
+  body.U.p = initial_momenta<D>(scene, cloud);
+  if (std::vector<Vec<D>> x = initial_positions<D>(scene, cloud); !x.empty()) {
+    body.deform(std::move(x));
+    body.commit();
+  }
+}
+
+} // namespace tessera::solver

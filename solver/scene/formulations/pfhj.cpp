@@ -1,0 +1,10 @@
+#include "solver/scene/run_formulation_definition.hpp"
+
+namespace tessera::solver {
+
+template Summary run_formulation<PFHJ<2>>(const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
+template Summary run_formulation<PFHJ<3>>(const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
+template Forecast forecast_formulation<PFHJ<2>>(const SceneSpec&, const ParticleCloud&);
+template Forecast forecast_formulation<PFHJ<3>>(const SceneSpec&, const ParticleCloud&);
+
+} // namespace tessera::solver

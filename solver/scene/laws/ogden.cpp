@@ -1,9 +1,0 @@
-#include "solver/physics/materials/ogden.hpp"
-#include "solver/scene/run_law_definition.hpp"
-
-namespace tessera::solver {
-
-template Summary run_law(const Ogden&, const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
-template Forecast forecast_law(const Ogden&, const SceneSpec&, const ParticleCloud&);
-
-} // namespace tessera::solver

@@ -1,0 +1,19 @@
+/// A run with its formulation chosen: each is compiled in a file of its own under formulations/.
+#pragma once
+
+#include "core/particle_cloud.hpp"
+#include "core/progress.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace tessera::solver {
+
+/// As run() of scene.hpp.
+template <class Formulation>
+Summary run_formulation(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
+                        Progress& progress);
+
+/// As forecast() of scene.hpp.
+template <class Formulation>
+Forecast forecast_formulation(const SceneSpec& scene, const ParticleCloud& cloud);
+
+} // namespace tessera::solver
