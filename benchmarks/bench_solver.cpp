@@ -15,7 +15,7 @@ namespace {
 
 SceneSpec copper_bar() {
   SceneSpec scene;
-  scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
+  scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.jst4 = Kappa4::constant(1.0 / 4096);
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0"), Expression("-227")}});
   scene.walls.push_back({});

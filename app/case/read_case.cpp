@@ -24,6 +24,23 @@ const std::map<std::string, double solver::MaterialSpec::*> material_numbers = {
     {"poisson", &solver::MaterialSpec::poisson}, {"c1", &solver::MaterialSpec::c1},
     {"c2", &solver::MaterialSpec::c2},           {"bulk", &solver::MaterialSpec::bulk}};
 
+/// Either yield and hardening or power.
+solver::PlasticitySpec read_plasticity(Table& plasticity) {
+  if (!plasticity.has("power")) {
+    plasticity.allow("power");
+    return solver::LinearHardening{plasticity.number("yield"), plasticity.number("hardening")};
+  }
+  for (const char* key : {"yield", "hardening"})
+    if (plasticity.has(key))
+      plasticity.refuse(key, fmt::format("{} stands beside power", plasticity.path_of(key)),
+                        "a body hardens one way: keep yield and hardening, or power");
+  Table power = plasticity.table("power");
+  const solver::PowerHardening hardening{power.number("coefficient"), power.number("offset"),
+                                         power.number("exponent")};
+  power.finish();
+  return hardening;
+}
+
 /// Reads the constants its law goes by, and refuses those of other laws.
 solver::MaterialSpec read_material(Table material) {
   if (!material.has("law")) // what the other keys should be is not known before it is there
@@ -45,7 +62,7 @@ solver::MaterialSpec read_material(Table material) {
       spec.*material_numbers.at(parameter.key) = material.number(parameter.key);
   }
   if (auto plasticity = material.optional_table("plasticity")) {
-    spec.plasticity = solver::PlasticitySpec{plasticity->number("yield"), plasticity->number("hardening")};
+    spec.plasticity = read_plasticity(*plasticity);
     plasticity->finish();
   }
   material.finish();

@@ -22,8 +22,9 @@ class Material {
 
   /// First Piola-Kirchhoff stresses (Pa) within a step: the histories stay as they are.
   virtual void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const = 0;
-  /// The step is over: the histories advance to the strains, and P (Pa) follows.
-  virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P) = 0;
+  /// The step is over: the histories advance to the strains; P (Pa) and the moduli of the fastest waves now,
+  /// rho0 c^2 (Pa), follow.
+  virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) = 0;
   virtual ElasticConstants linearised() const = 0;
 
   /// Of particle a, for those who look at the body; P of all nine components in the plane too.
@@ -47,9 +48,11 @@ class MaterialOf final : public Material<D> {
     });
   }
 
-  void commit(const StrainFields<D>& strains, std::span<Mat<D>> P) override {
+  void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) override {
     for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
-      P[a] = law_.piola(strains[a], history_[a]).template topLeftCorner<D, D>();
+      const Strain strain = strains[a];
+      P[a] = law_.piola(strain, history_[a]).template topLeftCorner<D, D>();
+      wave_moduli[a] = largest_wave_modulus(law_, strain);
     });
   }
 

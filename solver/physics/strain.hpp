@@ -59,4 +59,11 @@ struct StrainFields {
   }
 };
 
+/// Squares of the principal stretches of F, the smallest first.
+inline Vec3 squared_stretches(const Mat3& F) {
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+  eigen.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues();
+}
+
 } // namespace tessera::solver

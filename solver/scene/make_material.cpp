@@ -33,8 +33,11 @@ auto with_law(const MaterialSpec& material, Use&& use) {
   const Hencky hencky{elastic};
   if (!material.plasticity)
     return use(hencky);
-  const LinearHardening hardening{material.plasticity->yield, material.plasticity->hardening};
-  return use(VonMises<LinearHardening>{hencky, hardening});
+  return std::visit(
+      [&](const auto& hardening) {
+        return use(VonMises{hencky, hardening});
+      },
+      *material.plasticity);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
 #include "solver/physics/jst.hpp"
+#include "solver/physics/plasticity/hardening.hpp"
 #include "solver/scene/expression.hpp"
 
 #include <array>
@@ -13,15 +14,15 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace tessera::solver {
 
-/// SI units throughout.
-struct PlasticitySpec {
-  double yield = 0;     ///< initial yield stress, Pa
-  double hardening = 0; ///< linear isotropic hardening modulus, Pa
-};
+// SI units throughout.
+
+/// Isotropic hardening of von Mises plasticity.
+using PlasticitySpec = std::variant<LinearHardening, PowerHardening>;
 
 struct MaterialSpec {
   std::string law = "hencky"; ///< of the catalogue, which says which of the constants below it goes by

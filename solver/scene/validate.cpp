@@ -81,9 +81,17 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     require(find_law(m.law)->plasticity,
             fmt::format("material.plasticity stands beside the law \"{}\", which is elastic only", m.law),
             where("material.plasticity"), "use law = \"hencky\", or leave the table out");
-    number("material.plasticity.yield", m.plasticity->yield, m.plasticity->yield > 0, "positive (Pa)");
-    number("material.plasticity.hardening", m.plasticity->hardening, m.plasticity->hardening >= 0,
-           "zero or positive (Pa)");
+    if (const auto* linear = std::get_if<LinearHardening>(&*m.plasticity)) {
+      number("material.plasticity.yield", linear->yield, linear->yield > 0, "positive (Pa)");
+      number("material.plasticity.hardening", linear->modulus, linear->modulus >= 0, "zero or positive (Pa)");
+    } else {
+      const auto& power = std::get<PowerHardening>(*m.plasticity);
+      number("material.plasticity.power.coefficient", power.coefficient, power.coefficient > 0,
+             "positive (Pa)");
+      number("material.plasticity.power.offset", power.offset, power.offset > 0, "positive");
+      number("material.plasticity.power.exponent", power.exponent, power.exponent >= 0 && power.exponent <= 1,
+             "from 0 to 1");
+    }
   }
 
   name("solver.formulation", scene.formulation, {"auto", "displacement", "pF", "pFJ", "pFHJ"});

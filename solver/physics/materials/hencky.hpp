@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/physics/materials/elastic_constants.hpp"
+#include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
 
 #include <cmath>
@@ -41,6 +42,14 @@ struct Hencky {
   double energy(const Strain& strain, const History&) const {
     const PrincipalLogStrain log_strain(strain.F * strain.F.transpose());
     return energy_from(log_strain.deviator, strain.J);
+  }
+
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
+  double stiffened_modulus(const Strain& strain) const {
+    PrincipalWaves waves(strain);
+    waves.add_logarithmic(elastic.mu);
+    waves.add_volume(elastic.kappa * (1 - std::log(strain.J)));
+    return waves.largest_modulus();
   }
 
   ElasticConstants linearised() const { return elastic; }

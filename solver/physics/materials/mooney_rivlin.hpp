@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/physics/materials/elastic_constants.hpp"
+#include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
 
 #include <cmath>
@@ -33,6 +34,15 @@ struct MooneyRivlin {
     const double root = 1 / std::cbrt(J * J);
     return c1 * (root * F.squaredNorm() - 3) + c2 * (root * root * H.squaredNorm() - 3) +
            0.5 * kappa * (J - 1) * (J - 1);
+  }
+
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
+  double stiffened_modulus(const Strain& strain) const {
+    PrincipalWaves waves(strain);
+    waves.add_power(2 * c1, 2);
+    waves.add_power(-2 * c2, -2);
+    waves.add_volume(strain.J * strain.J * kappa);
+    return waves.largest_modulus();
   }
 
   ElasticConstants linearised() const { return ElasticConstants::from_shear_and_bulk(2 * (c1 + c2), kappa); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/physics/materials/elastic_constants.hpp"
+#include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
 
 #include <cmath>
@@ -27,6 +28,14 @@ struct NeoHookean {
     const auto& [F, H, J] = strain;
     return 0.5 * elastic.mu * (F.squaredNorm() / std::cbrt(J * J) - 3) +
            0.5 * elastic.kappa * (J - 1) * (J - 1);
+  }
+
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
+  double stiffened_modulus(const Strain& strain) const {
+    PrincipalWaves waves(strain);
+    waves.add_power(elastic.mu, 2);
+    waves.add_volume(strain.J * strain.J * elastic.kappa);
+    return waves.largest_modulus();
   }
 
   ElasticConstants linearised() const { return elastic; }

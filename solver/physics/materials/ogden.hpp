@@ -4,6 +4,7 @@
 #pragma once
 
 #include "solver/physics/materials/elastic_constants.hpp"
+#include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
 
 #include <cmath>
@@ -52,6 +53,15 @@ struct Ogden {
       energy += term.mu / term.alpha * (powers.sum() - 3);
     }
     return energy;
+  }
+
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
+  double stiffened_modulus(const Strain& strain) const {
+    PrincipalWaves waves(strain);
+    for (const OgdenTerm& term : terms)
+      waves.add_power(term.mu, term.alpha);
+    waves.add_volume(kappa / beta * ((beta + 1) * std::pow(strain.J, -beta) - 1));
+    return waves.largest_modulus();
   }
 
   /// Shear modulus sum_p mu_p alpha_p / 2.

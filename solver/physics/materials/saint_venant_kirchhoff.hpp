@@ -24,6 +24,13 @@ struct SaintVenantKirchhoff {
     return elastic.mu * E.squaredNorm() + 0.5 * elastic.lambda * E.trace() * E.trace();
   }
 
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
+  double stiffened_modulus(const Strain& strain) const {
+    const Vec3 squared = squared_stretches(strain.F);
+    const double trace_E = 0.5 * (squared.sum() - 3), largest = squared.maxCoeff();
+    return elastic.lambda * (trace_E + largest) + elastic.mu * (3 * largest - 1);
+  }
+
   ElasticConstants linearised() const { return elastic; }
 
  private:

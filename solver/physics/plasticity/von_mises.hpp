@@ -48,6 +48,14 @@ struct VonMises {
     return hencky.energy_from(elastic.deviator, strain.J);
   }
 
+  /// Largest modulus of pressure waves, Pa: StiffeningLaw. That of the volume alone, for the elastic deviator
+  /// adds no more than 2/3 of the yield stress.
+  double stiffened_modulus(const Strain& strain) const {
+    const ElasticConstants& elastic = hencky.elastic;
+    return (elastic.pressure_wave_modulus() - elastic.kappa * std::log(strain.J)) /
+           squared_stretches(strain.F).minCoeff();
+  }
+
   ElasticConstants linearised() const { return hencky.linearised(); }
 
   static double equivalent_plastic_strain(const History& history) {

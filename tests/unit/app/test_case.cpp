@@ -43,14 +43,26 @@ TEST(Case, OptionalPartsArrive) {
                      {"geometry.tolerance=1e-4", "particles.seed=7", "solver.support=2.2", "solver.cfl=0.2",
                       "solver.momentum_projection=false", "wall.0.restitution=0.5"});
   ASSERT_TRUE(c.scene.material.plasticity.has_value());
-  EXPECT_EQ(c.scene.material.plasticity->yield, 4e8);
-  EXPECT_EQ(c.scene.material.plasticity->hardening, 1e8);
+  const auto& hardening = std::get<solver::LinearHardening>(*c.scene.material.plasticity);
+  EXPECT_EQ(hardening.yield, 4e8);
+  EXPECT_EQ(hardening.modulus, 1e8);
   EXPECT_EQ(c.geometry.tolerance, 1e-4);
   EXPECT_EQ(c.particles.seed, 7U);
   EXPECT_EQ(c.scene.support, 2.2);
   EXPECT_EQ(c.scene.cfl, 0.2);
   EXPECT_FALSE(c.scene.momentum_projection);
   EXPECT_EQ(c.scene.walls[0].restitution, 0.5);
+}
+
+TEST(Case, HardeningMayFollowAPower) {
+  const Case c = read_text_case(
+      with("poisson = 0.35",
+           "poisson = 0.35\nplasticity.power = {coefficient = 159e6, offset = 0.02, exponent = 0.27}"));
+  ASSERT_TRUE(c.scene.material.plasticity.has_value());
+  const auto& hardening = std::get<solver::PowerHardening>(*c.scene.material.plasticity);
+  EXPECT_EQ(hardening.coefficient, 159e6);
+  EXPECT_EQ(hardening.offset, 0.02);
+  EXPECT_EQ(hardening.exponent, 0.27);
 }
 
 constexpr const char* hencky_table = "law = \"hencky\"\ndensity = 8930\nyoung = 117e9\npoisson = 0.35";
@@ -240,7 +252,7 @@ TEST(Overrides, MakeTablesAndEntriesThatAreNotThere) {
       read_text_case(complete_case, {"material.plasticity.yield=4e8", "material.plasticity.hardening=0",
                                      "initial.0.velocity=[1,2,\"X\"]", "wall.1.plane.point=[0,0,1]",
                                      "wall.1.plane.normal=[0,0,-1]"});
-  EXPECT_EQ(c.scene.material.plasticity->yield, 4e8);
+  EXPECT_EQ(std::get<solver::LinearHardening>(*c.scene.material.plasticity).yield, 4e8);
   EXPECT_EQ(c.scene.initial[0].velocity->at(2)(Vec3(5, 0, 0)), 5);
   ASSERT_EQ(c.scene.walls.size(), 2U);
   EXPECT_EQ(c.scene.walls[1].normal, Vec3(0, 0, -1));

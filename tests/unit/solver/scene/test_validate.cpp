@@ -12,7 +12,7 @@ namespace {
 
 SceneSpec good() {
   SceneSpec scene;
-  scene.material = {"hencky", 8930, 117e9, 0.35, PlasticitySpec{0.4e9, 0.1e9}};
+  scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.end_time = 1e-5;
   scene.walls.push_back({});
   scene.boundary.push_back({BoundaryCondition::Kind::fixed, "base", {true, false, false}});
@@ -96,12 +96,33 @@ TEST(Validate, OnlyHenckyFlows) {
             "case.toml:material.plasticity, use law = \"hencky\", or leave the table out");
 }
 
+TEST(Validate, RefusesHardeningThatIsNone) {
+  const auto power = [](double coefficient, double offset, double exponent) {
+    return message([&](SceneSpec& s) {
+      s.material.plasticity = PowerHardening{coefficient, offset, exponent};
+    });
+  };
+  EXPECT_EQ(power(159e6, 0.02, 0.27), "");
+  EXPECT_EQ(power(159e6, 0.02, 0), "");
+  EXPECT_EQ(power(159e6, 0.02, 1), "");
+  EXPECT_EQ(power(0, 0.02, 0.27),
+            "material.plasticity.power.coefficient is 0, "
+            "case.toml:material.plasticity.power.coefficient, it must be positive (Pa)");
+  EXPECT_EQ(power(159e6, 0, 0.27), "material.plasticity.power.offset is 0, "
+                                   "case.toml:material.plasticity.power.offset, it must be positive");
+  EXPECT_EQ(power(159e6, 0.02, 1.1), "material.plasticity.power.exponent is 1.1, "
+                                     "case.toml:material.plasticity.power.exponent, it must be from 0 to 1");
+  EXPECT_NE(power(159e6, 0.02, -0.1), "");
+  EXPECT_NE(power(INFINITY, 0.02, 0.27), "");
+  EXPECT_NE(power(159e6, std::nan(""), 0.27), "");
+}
+
 TEST(Validate, RefusesImpossibleValues) {
   const double nan = std::nan("");
   EXPECT_NE(message([](SceneSpec& s) { s.material.density = -1; }), "");
   EXPECT_NE(message([&](SceneSpec& s) { s.material.young = nan; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity->yield = 0; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity->hardening = -1; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity = LinearHardening{0, 0.1e9}; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity = LinearHardening{0.4e9, -1}; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.formulation = "pFJ2"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.scheme = "best"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.kernel = "cubi"; }), "");
