@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/particle_cloud.hpp"
+#include "solver/boundary/cavity.hpp"
 #include "solver/operators/support.hpp"
 #include "solver/physics/body.hpp"
 #include "solver/physics/law.hpp"
@@ -78,18 +79,21 @@ std::vector<Fixed<D>> fixed_conditions(const SceneSpec& scene, const ParticleClo
   return fixed;
 }
 
+/// The walls of a body with this pressure wave modulus (Pa) and smallest particle distance (m).
 template <int D>
-std::vector<Plane<D>> plane_walls(const SceneSpec& scene, const ParticleCloud& cloud) {
-  std::vector<Plane<D>> walls;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    const PlaneWall& wall = scene.walls[i];
-    const Plane<D> plane{wall.point.head<D>(), Vec<D>(wall.normal.head<D>()).normalized(), wall.restitution};
+std::vector<Wall<D>> contact_walls(const SceneSpec& scene, const ParticleCloud& cloud, double modulus,
+                                   double smallest) {
+  std::vector<Wall<D>> walls;
+  for (const WallSpec& spec : scene.walls) {
+    const auto shape = on_the_bodys_side(spec.shape, cloud.X);
     for (std::size_t a = 0; a < cloud.X.size(); ++a)
-      require(plane.gap(cloud.X[a].head<D>()) > -0.5 * cloud.spacing,
-              "the body begins behind a wall: particle " + std::to_string(a) +
-                  " is on the far side of wall " + std::to_string(i),
-              "", "move the wall, or turn its normal to the side the body is on");
-    walls.push_back(plane);
+      require(
+          shape->gap(cloud.X[a]).distance > -0.5 * cloud.spacing,
+          fmt::format("the body begins behind a wall: particle {} is on the far side of {}", a, spec.name),
+          "", "move the wall, or turn its free side to the body");
+    const ContactLaw law{spec.method, spec.friction, spec.restitution,
+                         spec.stiffness * modulus / (smallest * smallest)};
+    walls.emplace_back(spec.name, shape, law, spec.velocity.head<D>(), cloud.X.size());
   }
   return walls;
 }
@@ -101,7 +105,8 @@ auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const 
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);
   const double smallest = *std::min_element(nearest.begin(), nearest.end());
-  const double wave_speed = std::sqrt(law.linearised().pressure_wave_modulus() / scene.material.density);
+  const double modulus = law.linearised().pressure_wave_modulus();
+  const double wave_speed = std::sqrt(modulus / scene.material.density);
   std::vector<Vec<D>> X(cloud.X.size());
   for (std::size_t a = 0; a < X.size(); ++a)
     X[a] = cloud.X[a].head<D>();
@@ -111,7 +116,8 @@ auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const 
     Assembly<ThisBody> assembly{ThisBody(std::move(X), cloud.V, scene.material.density, wave_speed, law,
                                          std::move(graph), std::move(gradient), std::move(dissipation)),
                                 Step<ThisBody>(fixed_conditions<D>(scene, cloud),
-                                               plane_walls<D>(scene, cloud), scene.momentum_projection),
+                                               contact_walls<D>(scene, cloud, modulus, smallest),
+                                               scene.momentum_projection),
                                 smallest};
     assembly.body.U.p = initial_momenta<D>(scene, cloud);
     return use(assembly);

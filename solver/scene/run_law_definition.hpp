@@ -104,7 +104,7 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   place(jst, "JST dissipation", "solver.jst4 = 0");
   place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");
   place(!scene.fixed.empty(), "fixed velocities", "no [[boundary]]");
-  place(!scene.walls.empty(), "contact with rigid planes", "no [[wall]]");
+  place(!scene.walls.empty(), "contact with rigid walls", "no [[wall]]");
 
   // A few real steps on this machine; the first warms the caches.
   step.start(body, forecast.dt);

@@ -17,8 +17,11 @@ class Step {
  public:
   static constexpr int D = Body::dimension;
 
-  Step(std::vector<Fixed<D>> fixed, std::vector<Plane<D>> walls, bool momentum_projection)
-      : fixed_(std::move(fixed)), walls_(std::move(walls)), projects_(momentum_projection) {}
+  Step(std::vector<Fixed<D>> fixed, std::vector<Wall<D>> walls, bool momentum_projection)
+      : fixed_(std::move(fixed)), walls_(std::move(walls)), projects_(momentum_projection) {
+    for (const Wall<D>& wall : walls_)
+      pushes_ |= wall.law().method == ContactMethod::penalty;
+  }
 
   double dissipated() const { return dissipated_; } ///< J, by JST and the momentum projection
   double external() const { return external_; }     ///< J, work done on the body by walls
@@ -31,7 +34,7 @@ class Step {
     for (const Fixed<D>& condition : fixed_)
       condition.apply(body.U.p);
     before_ = body.U;
-    hold(body, dt, 1.0);
+    hold(body, time_, dt, 1.0);
     account(body);
   }
 
@@ -43,22 +46,27 @@ class Step {
     try {
       body.rates();
       project(body, U.x, dt);
+      push(body, before_.x, time_, dt);
       advance(U, dt, R);
-      hold(body, dt, 0.5);
+      hold(body, time_ + dt, dt, 0.5);
       body.stresses();
 
       body.rates();
+      if (pushes_)
+        x_star_ = U.x;
       average(U.x, before_.x, dt, R.x);
       project(body, U.x, dt);
+      push(body, x_star_, time_ + dt, dt);
       average(U.p, before_.p, dt, R.p);
       average(U.F, before_.F, dt, R.F);
-      hold(body, dt, 1.0);
+      hold(body, time_ + dt, dt, 1.0);
       body.commit();
     } catch (const Breakdown&) {
       body.U = before_;
       body.stresses();
       throw;
     }
+    time_ += dt;
     account(body);
   }
 
@@ -71,11 +79,16 @@ class Step {
   }
 
   /// Essential conditions and contact on the momenta of a stage; `share` of a change reaches U^(n+1).
-  void hold(Body& body, double dt, double share) {
-    for (const Plane<D>& wall : walls_)
-      wall.apply(body.U.x, body.U.p, body.density, dt, share, contact_);
+  void hold(Body& body, double time, double dt, double share) {
+    limit_by<D>(walls_, body.U.x, body.U.p, body.density, time, dt, share, contact_);
     for (const Fixed<D>& condition : fixed_)
       condition.apply(body.U.p);
+  }
+
+  /// Penalty forces of the walls on the rates of a stage whose positions are x.
+  void push(Body& body, const std::vector<Vec<D>>& x, double time, double dt) {
+    for (Wall<D>& wall : walls_)
+      wall.push(x, body.U.p, body.density, time, dt, body.R.p, contact_);
   }
 
   /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
@@ -93,11 +106,14 @@ class Step {
   }
 
   std::vector<Fixed<D>> fixed_;
-  std::vector<Plane<D>> walls_;
+  std::vector<Wall<D>> walls_;
   bool projects_;
+  bool pushes_ = false; ///< a wall is a penalty
   typename Body::Formulation before_;
   std::vector<Vec<D>> numerical_; ///< impulse of dissipation and projection in this step, kg/(m^2 s)
   std::vector<Vec<D>> contact_;   ///< impulse of the walls in this step, kg/(m^2 s)
+  std::vector<Vec<D>> x_star_;    ///< positions of the second stage, for penalties
+  double time_ = 0;               ///< s
   double dissipated_ = 0;
   double external_ = 0;
 };

@@ -110,7 +110,9 @@ TEST(Validate, RefusesImpossibleValues) {
   EXPECT_NE(message([](SceneSpec& s) { s.jst4 = -0.1; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.cfl = 0; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.end_time = INFINITY; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].normal.setZero(); }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].friction = -0.1; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].stiffness = 0; }), "");
+  EXPECT_NE(message([&](SceneSpec& s) { s.walls[0].velocity[1] = nan; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.walls[0].restitution = 1.1; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.fixed[0].component = {false, false, false}; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.probes[0].quantity = "temperature"; }), "");
