@@ -92,13 +92,24 @@ class Wall {
                      double share, std::span<Vec<D>> impulse) {
     if (law_.method != ContactMethod::reflection)
       return 0;
-    const Moment now{density, time, dt, share};
+    const Moment now{density, dt, share, time * velocity_, density * velocity_};
     const auto n = static_cast<std::int64_t>(x.size());
     const auto each = [&](auto limited) {
       return sum(n, std::int64_t{0}, [&](std::int64_t a) -> std::int64_t { return limited(a) ? 1 : 0; });
     };
-    if (plane_ != nullptr)
-      return each([&](std::int64_t a) { return limit_at_plane(a, x[a], p[a], now, impulse[a]); });
+    if (plane_ != nullptr) {
+      const Vec<D> n = plane_->normal().template head<D>();
+      const double level = -plane_->gap(in_space(-now.moved)).distance, speed = n.dot(now.tool);
+      const double landing_rate = density / dt;
+      return each([&](std::int64_t a) {
+        const double p_n = n.dot(p[a]) - speed;
+        const double landing = -landing_rate * std::max(n.dot(x[a]) - level, 0.0);
+        if (p_n >= landing && !came_in(a, now))
+          return false;
+        strike(a, n, std::max(landing - p_n, rebound(a, p_n, now)), p[a], now, impulse[a]);
+        return true;
+      });
+    }
     return each([&](std::int64_t a) { return limit_at_surface(a, x[a], p[a], now, impulse[a]); });
   }
 
@@ -153,7 +164,8 @@ class Wall {
 
  private:
   struct Moment {
-    double density, time, dt, share;
+    double density, dt, share;
+    Vec<D> moved, tool; ///< by the tool since time zero, m; momentum of what goes along with it, kg/(m^2 s)
     bool last() const { return share == 1; }
   };
   /// Where a particle was, as the tool sees it, when its distance was last found. It need not be found again
@@ -184,21 +196,10 @@ class Wall {
     return gap;
   }
 
-  bool limit_at_plane(std::int64_t a, const Vec<D>& x, Vec<D>& p, const Moment& now, Vec<D>& impulse) {
-    const RigidShape::Gap gap = plane_->gap(in_space(x - now.time * velocity_));
-    const Vec<D> n = gap.normal.template head<D>();
-    const double p_n = n.dot(p - now.density * velocity_);
-    const double landing = -now.density * std::max(gap.distance, 0.0) / now.dt;
-    if (p_n >= landing && !came_in(a, now))
-      return false;
-    strike(a, n, std::max(landing - p_n, rebound(a, p_n, now)), p, now, impulse);
-    return true;
-  }
-
-  /// As at a plane, by where the particle would be after dt: around a corner the surface there counts, and in
+  /// By where the particle would be after dt: around a corner the surface there counts, and in
   /// a corner two of its sides do, one after the other.
   bool limit_at_surface(std::int64_t a, const Vec<D>& x, Vec<D>& p, const Moment& now, Vec<D>& impulse) {
-    const Vec<D> at = x - now.time * velocity_;
+    const Vec<D> at = x - now.moved;
     const auto travel = [&]() -> Vec<D> { return now.dt * (p / now.density - velocity_); };
     const double squared_travel = travel().squaredNorm();
     const bool thrown_back = came_in(a, now);
@@ -219,7 +220,7 @@ class Wall {
       if (!passes && !throws)
         break;
       const Vec<D> n = (passes ? there : here).normal.template head<D>();
-      const double p_n = n.dot(p - now.density * velocity_);
+      const double p_n = n.dot(p - now.tool);
       strike(a, n, std::max(passes ? now.density * missing / now.dt : 0.0, rebound(a, p_n, now)), p, now,
              impulse);
       changed = true;
@@ -244,7 +245,7 @@ class Wall {
 
   /// Gives the normal impulse j >= 0 and the friction that goes with it.
   void strike(std::int64_t a, const Vec<D>& n, double j, Vec<D>& p, const Moment& now, Vec<D>& impulse) {
-    const Vec<D> drag = friction_on(p - now.density * velocity_, n, j);
+    const Vec<D> drag = friction_on(p - now.tool, n, j);
     p += j * n + drag;
     note(a, now.share * j * n, now.share * drag, impulse);
   }
@@ -275,7 +276,7 @@ class Wall {
   std::vector<Vec<D>> dragged_;  ///< tangential impulse since then; empty without friction
   std::vector<double> incoming_; ///< normal momentum a particle was stopped at in this step; empty where
                                  ///< nothing is thrown back
-  std::vector<Seen> seen_; ///< empty where the shape is a plane
+  std::vector<Seen> seen_;       ///< empty where the shape is a plane
 };
 
 /// Limits the momenta of a stage by every wall, again while a wall's action may have upset another's, at most
