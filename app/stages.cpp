@@ -10,10 +10,12 @@
 #include "io/history.hpp"
 #include "postprocess/picture.hpp"
 #include "postprocess/report.hpp"
+#include "preprocess/geometry/rigid_surface.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 
 namespace tessera::app {
 namespace {
@@ -30,12 +32,26 @@ std::string shell_word(const fs::path& path) {
 } // namespace
 
 void require_cad_file(const Case& the_case) {
-  if (the_case.geometry.shape)
-    return;
-  std::error_code failed;
-  require(fs::is_regular_file(the_case.geometry.file, failed),
-          fmt::format("there is no CAD file {}", the_case.geometry.file.string()),
-          the_case.where("geometry.file"), "paths are relative to the case file");
+  const auto require_file = [&](const preprocess::GeometrySource& source, const std::string& key) {
+    std::error_code failed;
+    require(source.shape || fs::is_regular_file(source.file, failed),
+            fmt::format("there is no CAD file {}", source.file.string()), the_case.where(key),
+            "paths are relative to the case file");
+  };
+  require_file(the_case.geometry, "geometry.file");
+  for (const WallSurface& surface : the_case.wall_surfaces)
+    require_file(surface.source, fmt::format("wall.{}.surface.file", surface.entry));
+}
+
+solver::SceneSpec scene_with_surfaces(const Case& the_case, Console& console) {
+  solver::SceneSpec scene = the_case.scene;
+  for (const WallSurface& surface : the_case.wall_surfaces) {
+    const preprocess::Domain domain = preprocess::import_geometry(surface.source, console.progress());
+    stop_if_interrupted("import");
+    scene.walls[surface.wall].shape = std::make_shared<const preprocess::RigidSurface>(
+        domain, the_case.where(fmt::format("wall.{}.surface", surface.entry)));
+  }
+  return scene;
 }
 
 void require_sets(const Case& the_case, const ParticleCloud& cloud) {
@@ -83,6 +99,7 @@ void begin_results(const Case& the_case, const Options& options, const preproces
 Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const fs::path& folder,
                          Console& console) {
   require_sets(the_case, cloud);
+  const solver::SceneSpec scene = scene_with_surfaces(the_case, console);
   io::FrameSeries series(folder);
   io::HistoryFile history(folder / "history.csv");
   int frames = 0;
@@ -96,7 +113,7 @@ Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const
                                 [&](const std::vector<double>& row) { history.row(row); }};
   Solution solution;
   try {
-    solution.summary = solver::run(the_case.scene, cloud, outputs, console.progress());
+    solution.summary = solver::run(scene, cloud, outputs, console.progress());
   } catch (const RunError& e) {
     if (frames == 0)
       throw;

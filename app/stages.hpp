@@ -11,8 +11,11 @@
 
 namespace tessera::app {
 
-/// InputError naming the key of the case when the CAD file is not there.
+/// InputError naming the key of the case when a CAD file, its body's or a wall's, is not there.
 void require_cad_file(const Case& the_case);
+
+/// The case's scene with the surfaces of its walls imported.
+solver::SceneSpec scene_with_surfaces(const Case& the_case, Console& console);
 
 /// InputError naming the key of the case when a set it speaks of is not one of the cloud's.
 void require_sets(const Case& the_case, const ParticleCloud& cloud);

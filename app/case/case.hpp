@@ -2,6 +2,7 @@
 /// done.
 #pragma once
 
+#include "app/case/read_wall.hpp"
 #include "postprocess/picture.hpp"
 #include "preprocess/cloud/prepare.hpp"
 #include "preprocess/geometry/import.hpp"
@@ -25,6 +26,7 @@ struct Case {
   preprocess::ParticleRequest particles;
   bool has_scene = false; ///< false: only particles are described
   solver::SceneSpec scene;
+  std::vector<WallSurface> wall_surfaces; ///< of the scene's walls, still to be imported
   std::vector<post::Picture> pictures;
 
   /// The case as TOML with the overrides applied and the CAD file's path made absolute: what DIR/case.toml

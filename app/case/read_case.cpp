@@ -1,6 +1,7 @@
 #include "app/case/case.hpp"
 #include "app/case/read_cloud.hpp"
 #include "app/case/read_conditions.hpp"
+#include "app/case/read_wall.hpp"
 #include "app/case/table.hpp"
 #include "core/error.hpp"
 #include "solver/physics/materials/catalogue.hpp"
@@ -89,19 +90,6 @@ void read_solver(Table solver, solver::SceneSpec& scene) {
   scene.momentum_projection = solver.boolean_or("momentum_projection", scene.momentum_projection);
   scene.end_time = solver.number("end_time");
   solver.finish();
-}
-
-solver::PlaneWall read_wall(Table table) {
-  solver::PlaneWall wall;
-  Table plane = table.table("plane");
-  wall.point = plane.vector("point");
-  wall.normal = plane.vector("normal");
-  plane.finish();
-  wall.restitution = table.number_or("restitution", wall.restitution, zero_to_one);
-  table.finish();
-  if (wall.normal.isZero())
-    plane.refuse("normal", "the wall's normal is zero", "point it to the body's side");
-  return wall;
 }
 
 solver::Probe read_probe(Table table) {
@@ -232,10 +220,11 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
     scene.initial.push_back(read_initial(entry));
   for (const Table& entry : boundary)
     scene.boundary.push_back(read_boundary(entry));
-  for (const Table& entry : wall)
-    scene.walls.push_back(read_wall(entry));
   if (exact)
     scene.exact = read_exact(*exact);
+  Walls walls = read_walls(wall, result.geometry.dimension, result.path.parent_path());
+  scene.walls = std::move(walls.walls);
+  result.wall_surfaces = std::move(walls.surfaces);
   if (output) {
     scene.frames = static_cast<int>(output->integer_or("frames", scene.frames, 1, 100'000));
     scene.history_rows =
@@ -253,6 +242,10 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
   toml::table stored = document->root(); // a copy: the document's own nodes know where they were written
   if (!result.geometry.shape)
     stored["geometry"].as_table()->insert_or_assign("file", result.geometry.file.string());
+  for (const WallSurface& surface : result.wall_surfaces)
+    if (!surface.source.shape)
+      stored["wall"][surface.entry]["surface"].as_table()->insert_or_assign("file",
+                                                                            surface.source.file.string());
   result.text = to_text(stored);
   result.cloud_text = cloud_part(stored);
   return result;

@@ -75,17 +75,17 @@ preprocess::GeometrySource read_geometry(Table geometry, const fs::path& case_fo
   source.seconds = geometry.number_or("time_limit", source.seconds, positive);
   source.bytes = static_cast<std::uint64_t>(geometry.number_or("memory_limit", 4, memory_size) * 0x1p30);
   if (geometry.has("shape") && geometry.has("file"))
-    geometry.refuse("shape", "geometry has both file and shape", "give one of them");
+    geometry.refuse("shape", fmt::format("{} has both file and shape", geometry.path()), "give one of them");
   geometry.finish();
   if (source.shape)
     return source;
 
   if (file.empty())
-    geometry.refuse("file", "geometry.file is empty", "name a CAD or mesh file");
+    geometry.refuse("file", fmt::format("{} is empty", geometry.path_of("file")), "name a CAD or mesh file");
   try {
     preprocess::metres_per_unit(unit);
   } catch (const InputError& e) {
-    geometry.refuse("unit", fmt::format("geometry.unit: {}", e.what()), "");
+    geometry.refuse("unit", fmt::format("{}: {}", geometry.path_of("unit"), e.what()), "");
   }
   source.unit = unit;
   // A path typed on the command line is relative to where it was typed, one in the case to the case.

@@ -264,6 +264,26 @@ std::array<std::string, 3> Table::formulas(const std::string& key) {
   return node == nullptr ? std::array<std::string, 3>{"0", "0", "0"} : formulas_in(key, *node);
 }
 
+std::vector<Vec<2>> Table::points(const std::string& key) {
+  const toml::node* node = declare_wanted(key);
+  if (node == nullptr)
+    return {};
+  const toml::array* list = node->as_array();
+  constexpr const char* wanted = "a list of two or more points such as [[0, 0], [1, 0.5]]";
+  if (list == nullptr || list->size() < 2)
+    wrong_type(key, *node, wanted);
+  std::vector<Vec<2>> points;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string entry = fmt::format("{}.{}", key, i);
+    const toml::array* pair = list->get(i)->as_array();
+    if (pair == nullptr || pair->size() != 2)
+      wrong_type(entry, *list->get(i), "two numbers [x, y]");
+    points.emplace_back(number_in(entry + ".0", *pair->get(0), any_number),
+                        number_in(entry + ".1", *pair->get(1), any_number));
+  }
+  return points;
+}
+
 std::optional<std::array<std::string, 3>> Table::optional_formulas(const std::string& key) {
   const toml::node* node = declare(key);
   if (node == nullptr)

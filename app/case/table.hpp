@@ -54,6 +54,8 @@ class Table {
   std::vector<double> numbers(const std::string& key, int count, Range range = any_number);
   /// A list of one or more numbers.
   std::vector<double> number_list(const std::string& key);
+  /// A list of two or more pairs of numbers.
+  std::vector<Vec<2>> points(const std::string& key);
   /// A formula: a string or a number.
   std::string formula(const std::string& key);
   /// Three of them.
@@ -80,6 +82,7 @@ class Table {
   bool is_text(const std::string& key) const;
   bool is_table(const std::string& key) const;
   bool is_overridden(const std::string& key) const { return document_->is_overridden(path_of(key)); }
+  const std::string& path() const { return path_; }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   std::string where() const { return document_->where(path_); }
 

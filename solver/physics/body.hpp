@@ -7,7 +7,6 @@
 #include "solver/physics/formulation.hpp"
 #include "solver/physics/jst.hpp"
 #include "solver/physics/material.hpp"
-#include "solver/physics/stress_measures.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -96,8 +95,8 @@ class Body {
   /// change of the histories.
   void commit() {
     check();
-    material->commit(strains(), P);
-    for_each(size(), [&](std::int64_t a) { wave[a] = wave_speed / smallest_stretch<D>(strains().F[a]); });
+    material->commit(strains(), P, wave);
+    for_each(size(), [&](std::int64_t a) { wave[a] = std::sqrt(wave[a] / density); });
     if constexpr (dissipates)
       if (dissipation.kappa4.ramped())
         for_each(size(), [&](std::int64_t a) {
@@ -132,8 +131,7 @@ class Body {
   Formulation R;            ///< its rates
   std::vector<Mat<D>> P;    ///< first Piola-Kirchhoff stress of U, Pa
   std::vector<Vec<D>> T;    ///< divergence of P alone, N/m^3
-  std::vector<double> wave; ///< pressure wave speed at the last commit, m/s: the one at rest over the
-                            ///< smallest stretch, (3.93)
+  std::vector<double> wave; ///< pressure wave speed at the last commit, (3.93), m/s
 
  private:
   Mat<D> gradient_of_x(std::int64_t a) const {

@@ -22,12 +22,4 @@ inline double von_mises(const Mat3& sigma) {
   return std::sqrt(1.5) * (sigma - pressure(sigma) * Mat3::Identity()).norm();
 }
 
-/// Smallest principal stretch of F: square root of the smallest eigenvalue of F^T F.
-template <int D>
-double smallest_stretch(const Mat<D>& F) {
-  Eigen::SelfAdjointEigenSolver<Mat<D>> eigen;
-  eigen.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(eigen.eigenvalues()[0], 0.0));
-}
-
 } // namespace tessera::solver

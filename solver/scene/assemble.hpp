@@ -65,12 +65,13 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
   for (std::size_t a = 0; a < X.size(); ++a)
     X[a] = cloud.X[a].head<D>();
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph, kernel);
+  const double modulus = material->linearised().pressure_wave_modulus();
   using ThisBody = Body<Formulation, Dissipation>;
-  Assembly<ThisBody> assembly{ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material),
-                                        std::move(graph), std::move(gradient), std::move(dissipation),
-                                        Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
-                              Step<ThisBody>(make_conditions<D>(scene, cloud), scene.momentum_projection),
-                              smallest};
+  Assembly<ThisBody> assembly{
+      ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material), std::move(graph),
+                std::move(gradient), std::move(dissipation),
+                Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
+      Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection), smallest};
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
 }

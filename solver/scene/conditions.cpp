@@ -1,6 +1,7 @@
 #include "solver/scene/conditions.hpp"
 
 #include "core/error.hpp"
+#include "solver/boundary/cavity.hpp"
 
 #include <fmt/format.h>
 
@@ -115,16 +116,18 @@ std::unique_ptr<Load<D>> load(const BoundaryCondition& c, const ParticleCloud& c
 }
 
 template <int D>
-std::vector<Plane<D>> plane_walls(const SceneSpec& scene, const ParticleCloud& cloud) {
-  std::vector<Plane<D>> walls;
-  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    const PlaneWall& wall = scene.walls[i];
-    const Plane<D> plane{wall.point.head<D>(), Vec<D>(wall.normal.head<D>()).normalized(), wall.restitution};
+std::vector<Wall<D>> contact_walls(const SceneSpec& scene, const ParticleCloud& cloud, double modulus,
+                                   double smallest) {
+  std::vector<Wall<D>> walls;
+  for (const WallSpec& spec : scene.walls) {
+    const auto shape = on_the_bodys_side(spec.shape, cloud.X);
     for (std::size_t a = 0; a < cloud.X.size(); ++a)
-      require(plane.gap(cloud.X[a].head<D>()) > -0.5 * cloud.spacing,
-              fmt::format("the body begins behind a wall: particle {} is on the far side of wall {}", a, i),
-              "", "move the wall, or turn its normal to the side the body is on");
-    walls.push_back(plane);
+      require(shape->gap(cloud.X[a]).distance > -0.5 * cloud.spacing,
+              fmt::format("the body begins behind a wall: particle {} is on the far side of {}", a, spec.name),
+              "", "move the wall, or turn its free side to the body");
+    const ContactLaw law{spec.method, spec.friction, spec.restitution,
+                         spec.stiffness * modulus / (smallest * smallest)};
+    walls.emplace_back(spec.name, shape, law, spec.velocity.head<D>(), cloud.X.size());
   }
   return walls;
 }
@@ -132,7 +135,8 @@ std::vector<Plane<D>> plane_walls(const SceneSpec& scene, const ParticleCloud& c
 } // namespace
 
 template <int D>
-Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud) {
+Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud, double modulus,
+                              double smallest) {
   Conditions<D> conditions;
   std::vector<VelocityCondition<D>> held;
   for (const BoundaryCondition& c : scene.boundary)
@@ -141,7 +145,7 @@ Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud
     else
       held.push_back(velocity_condition<D>(c, cloud));
   conditions.held = HeldVelocities<D>(held, cloud.X);
-  conditions.walls = plane_walls<D>(scene, cloud);
+  conditions.walls = contact_walls<D>(scene, cloud, modulus, smallest);
   conditions.X = cloud.X;
   return conditions;
 }
@@ -173,8 +177,8 @@ std::vector<Vec<D>> initial_positions(const SceneSpec& scene, const ParticleClou
   return x;
 }
 
-template Conditions<2> make_conditions<2>(const SceneSpec&, const ParticleCloud&);
-template Conditions<3> make_conditions<3>(const SceneSpec&, const ParticleCloud&);
+template Conditions<2> make_conditions<2>(const SceneSpec&, const ParticleCloud&, double, double);
+template Conditions<3> make_conditions<3>(const SceneSpec&, const ParticleCloud&, double, double);
 template std::vector<Vec<2>> initial_momenta<2>(const SceneSpec&, const ParticleCloud&);
 template std::vector<Vec<3>> initial_momenta<3>(const SceneSpec&, const ParticleCloud&);
 template std::vector<Vec<2>> initial_positions<2>(const SceneSpec&, const ParticleCloud&);

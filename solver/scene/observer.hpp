@@ -4,6 +4,7 @@
 #include "core/frame.hpp"
 #include "core/parallel.hpp"
 #include "solver/physics/body.hpp"
+#include "solver/physics/stress_measures.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"

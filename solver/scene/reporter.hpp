@@ -19,10 +19,13 @@ template <class Body>
 class Reporter {
  public:
   Reporter(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
-           const Assembly<Body>& assembly)
+           Assembly<Body>& assembly)
       : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly) {
     for (const Probe& probe : scene.probes)
       probes_.emplace_back(probe, cloud);
+    if (!assembly.step.walls().empty())
+      for (const Vec3& A : cloud.A)
+        boundary_area_.push_back(A.norm());
     if (outputs.history_columns)
       outputs.history_columns(columns());
     const Momenta start = momenta(assembly.body);
@@ -82,6 +85,9 @@ class Reporter {
     std::vector<std::string> names(history_columns.begin(), history_columns.end());
     for (const Probe& probe : scene_.probes)
       names.push_back(column_name(probe));
+    for (const auto& wall : assembly_.step.walls())
+      for (const char* what : {"_force_x_N", "_force_y_N", "_force_z_N", "_friction_N", "_pressure_Pa"})
+        names.push_back(wall.name() + what);
     return names;
   }
 
@@ -121,7 +127,21 @@ class Reporter {
     row.insert(row.end(), m.angular.begin(), m.angular.end());
     for (ProbeReader& probe : probes_)
       row.push_back(probe.read(arrays_.probe_fields(cloud_)));
+    contact(time, row);
     outputs_.history_row(row);
+  }
+
+  /// What the walls did since the last row: mean forces, and the largest pressure on a particle's own surface.
+  void contact(double time, std::vector<double>& row) {
+    for (auto& wall : assembly_.step.walls()) {
+      const auto report = wall.report(assembly_.body.V, boundary_area_, time - contact_since_);
+      Vec3 force = Vec3::Zero();
+      force.template head<Body::dimension>() = report.force;
+      row.insert(row.end(), force.begin(), force.end());
+      row.push_back(report.friction.norm());
+      row.push_back(report.largest_pressure);
+    }
+    contact_since_ = time;
   }
 
   void frame(double time, std::int64_t step) {
@@ -135,8 +155,10 @@ class Reporter {
   const SceneSpec& scene_;
   const ParticleCloud& cloud_;
   const Outputs& outputs_;
-  const Assembly<Body>& assembly_;
+  Assembly<Body>& assembly_;
   std::vector<ProbeReader> probes_;
+  std::vector<double> boundary_area_; ///< m^2; empty where there is nothing to touch
+  double contact_since_ = 0;          ///< time of the last row, s
   FrameArrays arrays_;
   Momenta momenta_start_;
   double linear_scale_ = 0, angular_scale_ = 0;

@@ -6,12 +6,15 @@
 #include "core/progress.hpp"
 #include "solver/physics/jst.hpp"
 #include "solver/physics/plasticity/hardening.hpp"
+#include "solver/boundary/plane.hpp"
+#include "solver/boundary/wall.hpp"
 #include "solver/scene/expression.hpp"
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -59,11 +62,16 @@ struct BoundaryCondition {
   std::vector<Expression> values{};                   ///< none, one (pressure) or three
 };
 
-/// Frictionless rigid plane: particles stay on the side its normal points to.
-struct PlaneWall {
-  Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ(); ///< need not be of unit length
-  double restitution = 0;      ///< 0: normal velocity is lost on contact, 1: it is reflected
+/// A rigid tool the body cannot pass. A channel is two of them.
+struct WallSpec {
+  std::string name = "wall";
+  /// Where it is at time zero; null until the surface's file is read.
+  std::shared_ptr<const RigidShape> shape = std::make_shared<Plane>();
+  double friction = 0;    ///< Coulomb's coefficient
+  double restitution = 0; ///< 0: normal velocity is lost on contact, 1: it is reflected
+  ContactMethod method = ContactMethod::reflection;
+  double stiffness = 1;         ///< of the penalty: force per volume and depth over modulus / distance^2
+  Vec3 velocity = Vec3::Zero(); ///< m/s
 };
 
 /// One number of the deformed body followed in time: a column of history.csv and an entry of summary.json.
@@ -102,7 +110,7 @@ struct SceneSpec {
   double end_time = 0; ///< s
   std::vector<InitialCondition> initial;
   std::vector<BoundaryCondition> boundary;
-  std::vector<PlaneWall> walls;
+  std::vector<WallSpec> walls;
   std::vector<Probe> probes;
   std::optional<ExactSolution> exact;
   int frames = 20;         ///< equally spaced in time, besides the one at time zero

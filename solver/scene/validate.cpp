@@ -125,11 +125,14 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
 
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
-    const PlaneWall& wall = scene.walls[i];
-    number(fmt::format("wall.{}.plane", i), wall.normal.norm(),
-           wall.point.allFinite() && wall.normal.norm() > 0, "a point and a normal of positive length");
+    const WallSpec& wall = scene.walls[i];
+    number(fmt::format("wall.{}.friction", i), wall.friction, wall.friction >= 0, "zero or positive");
     number(fmt::format("wall.{}.restitution", i), wall.restitution,
            wall.restitution >= 0 && wall.restitution <= 1, "from 0 to 1");
+    number(fmt::format("wall.{}.stiffness", i), wall.stiffness, wall.stiffness > 0 && wall.stiffness <= 10,
+           "above 0 and at most 10: a stiffer one needs smaller steps than the body does");
+    number(fmt::format("wall.{}.velocity", i), wall.velocity.norm(), wall.velocity.allFinite(),
+           "three numbers (m/s)");
   }
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     const auto& c = scene.boundary[i].component;

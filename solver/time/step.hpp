@@ -20,7 +20,7 @@ struct Conditions {
   std::vector<Vec3> X; ///< reference positions, m
   HeldVelocities<D> held;
   std::vector<std::unique_ptr<Load<D>>> loads;
-  std::vector<Plane<D>> walls;
+  std::vector<Wall<D>> walls;
 };
 
 template <class Body>
@@ -30,12 +30,16 @@ class Step {
 
   Step(Conditions<D> conditions, bool momentum_projection)
       : outside_(std::move(conditions)), projects_(momentum_projection),
-        works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()) {}
+        works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()) {
+    for (const Wall<D>& wall : outside_.walls)
+      pushes_ |= wall.law().method == ContactMethod::penalty;
+  }
 
   double dissipated() const { return dissipated_; } ///< J, by JST and the momentum projection
   double external() const { return external_; }     ///< J, work done on the body from outside
 
   bool works() const { return works_; } ///< whether anything outside may work on the body
+  std::vector<Wall<D>>& walls() { return outside_.walls; }
 
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
@@ -58,15 +62,17 @@ class Step {
     try {
       body.rates();
       conserve(body, U.x, dt);
-      load(body, time, dt);
+      load(body, U.x, time, dt);
       advance(U, dt, R);
       hold(body, time + dt, dt, 0.5);
       body.stresses();
 
       body.rates();
+      if (pushes_)
+        x_star_ = U.x;
       average(U.x, before_.x, dt, R.x);
       conserve(body, U.x, dt);
-      load(body, time + dt, dt);
+      load(body, x_star_, time + dt, dt);
       average(U.p, before_.p, dt, R.p);
       average_strains(U, before_, dt, R);
       hold(body, time + dt, dt, 1.0);
@@ -91,23 +97,24 @@ class Step {
     for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
   }
 
-  /// Forces from outside, which the projection must not see.
-  void load(Body& body, double time, double dt) {
-    if (outside_.loads.empty())
-      return;
-    for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
-    for (const auto& load : outside_.loads)
-      load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
-    for_each(body.size(), [&](std::int64_t a) {
-      body.R.p[a] += force_[a];
-      external_impulse_[a] += 0.5 * dt * force_[a];
-    });
+  /// Forces from outside on the rates of a stage whose positions are x: the projection must not see them.
+  void load(Body& body, const std::vector<Vec<D>>& x, double time, double dt) {
+    if (!outside_.loads.empty()) {
+      for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
+      for (const auto& load : outside_.loads)
+        load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
+      for_each(body.size(), [&](std::int64_t a) {
+        body.R.p[a] += force_[a];
+        external_impulse_[a] += 0.5 * dt * force_[a];
+      });
+    }
+    for (Wall<D>& wall : outside_.walls)
+      wall.push(x, body.U.p, body.density, time, dt, body.R.p, external_impulse_);
   }
 
   /// Contact and essential conditions on the momenta of a stage; `share` of a change reaches U^(n+1).
   void hold(Body& body, double time, double dt, double share) {
-    for (const Plane<D>& wall : outside_.walls)
-      wall.apply(body.U.x, body.U.p, body.density, dt, share, external_impulse_);
+    limit_by<D>(outside_.walls, body.U.x, body.U.p, body.density, time, dt, share, external_impulse_);
     outside_.held.apply(body.U.p, body.density, time, share, external_impulse_);
   }
 
@@ -128,8 +135,10 @@ class Step {
   Conditions<D> outside_;
   bool projects_;
   bool works_;
+  bool pushes_ = false; ///< a wall is a penalty
   typename Body::Formulation before_;
   std::vector<Vec<D>> force_;            ///< of the loads, N/m^3
+  std::vector<Vec<D>> x_star_;           ///< positions of the second stage, for penalties
   std::vector<Vec<D>> numerical_;        ///< impulse of dissipation and projection in this step, kg/(m^2 s)
   std::vector<Vec<D>> external_impulse_; ///< of walls, loads and moving boundaries in this step, kg/(m^2 s)
   double dissipated_ = 0;

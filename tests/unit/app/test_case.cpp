@@ -28,7 +28,7 @@ TEST(Case, EveryStatedValueArrives) {
   ASSERT_EQ(c.scene.boundary.size(), 1U);
   EXPECT_EQ(c.scene.boundary[0].component, (std::array{true, true, true}));
   ASSERT_EQ(c.scene.walls.size(), 1U);
-  EXPECT_EQ(c.scene.walls[0].normal, Vec3::UnitZ());
+  EXPECT_EQ(c.scene.walls[0].shape->gap({1, 2, 3}).normal, Vec3::UnitZ());
   ASSERT_EQ(c.particles.sets.size(), 1U);
   EXPECT_EQ(c.scene.frames, 4);
   ASSERT_EQ(c.scene.probes.size(), 1U);
@@ -255,7 +255,7 @@ TEST(Overrides, MakeTablesAndEntriesThatAreNotThere) {
   EXPECT_EQ(std::get<solver::LinearHardening>(*c.scene.material.plasticity).yield, 4e8);
   EXPECT_EQ(c.scene.initial[0].velocity->at(2)(Vec3(5, 0, 0)), 5);
   ASSERT_EQ(c.scene.walls.size(), 2U);
-  EXPECT_EQ(c.scene.walls[1].normal, Vec3(0, 0, -1));
+  EXPECT_EQ(c.scene.walls[1].shape->gap({1, 2, 3}).normal, Vec3(0, 0, -1));
 }
 
 TEST(Overrides, LaterOnesWin) {

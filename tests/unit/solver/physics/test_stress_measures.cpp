@@ -24,10 +24,3 @@ TEST(StressMeasures, CauchyOfAPullByNansonsFormula) {
   const Mat3 P = Vec3(7, 0, 0).asDiagonal();
   EXPECT_DOUBLE_EQ(cauchy(P, F, 2)(0, 0), 7);
 }
-
-TEST(StressMeasures, SmallestStretchIgnoresRotation) {
-  const Mat3 Q = Eigen::AngleAxisd(0.7, Vec3(1, 1, 1).normalized()).toRotationMatrix();
-  const Mat3 F = Q * Mat3(Vec3(1.5, 0.4, 0.9).asDiagonal());
-  EXPECT_NEAR(smallest_stretch<3>(F), 0.4, 1e-12);
-  EXPECT_NEAR(smallest_stretch<2>(Mat<2>(Vec<2>(3, 0.2).asDiagonal())), 0.2, 1e-12);
-}

@@ -120,7 +120,7 @@ TEST(Run, ASupportTooSmallIsRefusedBeforeTheFirstStep) {
 TEST(Run, ABodyBehindItsWallIsRefused) {
   const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
   SceneSpec scene = impact();
-  scene.walls[0].point = Vec3(0, 0, 1e-3);
+  scene.walls[0].shape = std::make_shared<Plane>(Vec3(0, 0, 1e-3));
   EXPECT_THROW(run(scene, cloud, {}, Progress::silent()), InputError);
 }
 

@@ -133,7 +133,9 @@ TEST(Validate, RefusesImpossibleValues) {
   EXPECT_NE(message([](SceneSpec& s) { s.involution = 0.2; }), ""); // nothing to tie where J is not evolved
   EXPECT_NE(message([](SceneSpec& s) { s.cfl = 0; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.end_time = INFINITY; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].normal.setZero(); }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].friction = -0.1; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.walls[0].stiffness = 0; }), "");
+  EXPECT_NE(message([&](SceneSpec& s) { s.walls[0].velocity[1] = nan; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.walls[0].restitution = 1.1; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.boundary[0].component = {false, false, false}; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.probes[0].quantity = "temperature"; }), "");
