@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "solver/operators/kernel.hpp"
 
 #include <fmt/format.h>
 
@@ -25,24 +24,25 @@ double condition_number(const Mat<D>& moment) {
 
 template <int D>
 Mat<D> moment_matrix(std::int64_t a, std::span<const Vec3> X, std::span<const double> V,
-                     const Neighbours& neighbours) {
+                     const Neighbours& neighbours, const Kernel<D>& kernel) {
   Mat<D> M = Mat<D>::Zero();
   for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
     const std::int32_t b = neighbours.column[e];
     const Vec<D> R = (X[b] - X[a]).template head<D>();
     // grad W_b(X_a) = W'/r (X_a - X_b), so V_b grad W (x) (X_b - X_a) = -V_b W'/r R (x) R: positive definite.
-    M -= V[b] * Wendland<D>::slope_over_r(R.norm(), neighbours.pair_support(a, b)) * R * R.transpose();
+    M -= V[b] * kernel.slope_over_r(R.norm(), neighbours.pair_support(a, b)) * R * R.transpose();
   }
   return M;
 }
 
 template <int D>
-Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours) {
+Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
+                           const Kernel<D>& kernel) {
   const std::int64_t n = neighbours.size();
   std::vector<Mat<D>> L(static_cast<std::size_t>(n));
   std::vector<double> condition(static_cast<std::size_t>(n));
   for_each(n, [&](std::int64_t a) {
-    const Mat<D> M = moment_matrix<D>(a, X, V, neighbours);
+    const Mat<D> M = moment_matrix<D>(a, X, V, neighbours, kernel);
     condition[a] = condition_number<D>(M);
     if (!(condition[a] < singular))
       throw InputError(fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours within "
@@ -62,7 +62,7 @@ Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, c
     for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
       const std::int32_t b = neighbours.column[e];
       const Vec<D> R = (X[a] - X[b]).template head<D>();
-      const Vec<D> grad_W = Wendland<D>::slope_over_r(R.norm(), neighbours.pair_support(a, b)) * R;
+      const Vec<D> grad_W = kernel.slope_over_r(R.norm(), neighbours.pair_support(a, b)) * R;
       gradient.w[e] = V[b] * (L[a] * grad_W);
       gradient.t[e] = V[b] * (L[b] * grad_W); // -V_b g_ba with g_ba = -L_b grad W_b(X_a)
       s += gradient.w[e];
@@ -76,10 +76,12 @@ Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, c
 template double condition_number<2>(const Mat<2>&);
 template double condition_number<3>(const Mat<3>&);
 template Mat<2> moment_matrix<2>(std::int64_t, std::span<const Vec3>, std::span<const double>,
-                                 const Neighbours&);
+                                 const Neighbours&, const Kernel<2>&);
 template Mat<3> moment_matrix<3>(std::int64_t, std::span<const Vec3>, std::span<const double>,
-                                 const Neighbours&);
-template Gradient<2> build_gradient<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
-template Gradient<3> build_gradient<3>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
+                                 const Neighbours&, const Kernel<3>&);
+template Gradient<2> build_gradient<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&,
+                                       const Kernel<2>&);
+template Gradient<3> build_gradient<3>(std::span<const Vec3>, std::span<const double>, const Neighbours&,
+                                       const Kernel<3>&);
 
 } // namespace tessera::solver

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/neighbours.hpp"
+#include "solver/operators/kernel.hpp"
 
 #include <span>
 #include <string>
@@ -25,7 +26,8 @@ struct Gradient {
 /// Throws InputError naming the particle, its neighbour count and the remedy where a moment matrix is
 /// singular.
 template <int D>
-Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours);
+Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
+                           const Kernel<D>& kernel = {});
 
 /// Condition number of a symmetric moment matrix; infinite when it is singular.
 template <int D>
@@ -34,6 +36,6 @@ double condition_number(const Mat<D>& moment);
 /// Moment matrix of particle a, sum_b V_b |W'|/r (X_b - X_a) (x) (X_b - X_a), (3.64): the inverse of L_a.
 template <int D>
 Mat<D> moment_matrix(std::int64_t a, std::span<const Vec3> X, std::span<const double> V,
-                     const Neighbours& neighbours);
+                     const Neighbours& neighbours, const Kernel<D>& kernel = {});
 
 } // namespace tessera::solver

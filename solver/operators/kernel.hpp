@@ -1,45 +1,61 @@
-/// Smoothing kernels W(r, s) of support radius s: positive for r < s, of unit integral.
+/// Smoothing kernels W(r, s) of support radius s: positive for r < s, falling from the centre on, of unit
+/// integral.
 #pragma once
 
-#include <numbers>
+#include "solver/operators/gaussian.hpp"
+#include "solver/operators/spline.hpp"
+#include "solver/operators/wendland.hpp"
+
+#include <string>
+#include <vector>
 
 namespace tessera::solver {
 
-/// Wendland C2 kernel in D dimensions, (3.50): alpha (1 - q)^4 (1 + 4 q), q = r / s (D = 2, 3);
-/// alpha (1 - q)^3 (1 + 3 q) for D = 1.
+enum class KernelShape { wendland, cubic, quartic, quintic, gaussian };
+
+/// Names of the shapes in the order of KernelShape, the default first.
+const std::vector<std::string>& kernel_names();
+
+/// Throws InputError naming the choices where there is no such kernel.
+KernelShape kernel_named(const std::string& name);
+
+/// A kernel in D = 1, 2 or 3 dimensions, chosen at run time: for building operators, not for a step's loops.
+/// The support radius s is where it ends, whatever its shape (s = 2 h in (3.50)-(3.52), 3 h for the
+/// Gaussian).
 template <int D>
-struct Wendland {
-  /// Normalisation alpha for s = 1: 5/4, 7/pi, 21/(2 pi).
-  static constexpr double alpha = D == 1 ? 1.25 : D == 2 ? 7 / std::numbers::pi : 10.5 / std::numbers::pi;
+struct Kernel {
+  KernelShape shape = KernelShape::wendland;
 
   /// W, 1/m^D.
-  static double value(double r, double s) {
-    const double q = r / s, u = 1 - q;
-    if (u <= 0)
-      return 0;
-    return scale(s) * (D == 1 ? u * u * u * (1 + 3 * q) : u * u * u * u * (1 + 4 * q));
+  double value(double r, double s) const {
+    return of_shape([&](auto kernel) { return kernel.value(r, s); });
   }
-
-  /// W'(r) / r: finite at r = 0, never positive; grad W = W'(r)/r (X_a - X_b).
-  static double slope_over_r(double r, double s) {
-    const double u = 1 - r / s;
-    if (u <= 0)
-      return 0;
-    return -scale(s) / (s * s) * (D == 1 ? 12 * u * u : 20 * u * u * u);
+  /// W'(r) / r, 1/m^(D+2): finite at r = 0, never positive; grad W = W'(r)/r (X_a - X_b).
+  double slope_over_r(double r, double s) const {
+    return of_shape([&](auto kernel) { return kernel.slope_over_r(r, s); });
   }
-
-  /// Laplacian of W: W'' + (D - 1) W' / r.
-  static double laplacian(double r, double s) {
-    const double q = r / s, u = 1 - q;
-    if (u <= 0)
-      return 0;
-    if constexpr (D == 1)
-      return -12 * scale(s) / (s * s) * u * (1 - 3 * q);
-    return -20 * scale(s) / (s * s) * u * u * ((1 - 4 * q) + (D - 1) * u);
+  /// Laplacian of W, W'' + (D - 1) W' / r, 1/m^(D+2).
+  double laplacian(double r, double s) const {
+    return of_shape([&](auto kernel) { return kernel.laplacian(r, s); });
   }
 
  private:
-  static double scale(double s) { return alpha / (D == 1 ? s : D == 2 ? s * s : s * s * s); }
+  template <class Use>
+  double of_shape(Use&& use) const {
+    switch (shape) {
+    case KernelShape::cubic:
+      return use(Spline<D, CubicPowers>{});
+    case KernelShape::quartic:
+      return use(Spline<D, QuarticPowers>{});
+    case KernelShape::quintic:
+      return use(Spline<D, QuinticPowers>{});
+    case KernelShape::gaussian:
+      return use(Gaussian<D>{});
+    case KernelShape::wendland:
+      break;
+    }
+    return use(Wendland<D>{});
+  }
 };
 
 } // namespace tessera::solver

@@ -2,14 +2,14 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "solver/operators/kernel.hpp"
 
 #include <fmt/format.h>
 
 namespace tessera::solver {
 
 template <int D>
-Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours) {
+Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
+                          const Kernel<D>& kernel) {
   const std::int64_t n = neighbours.size();
   Laplacian laplacian;
   laplacian.l.resize(static_cast<std::size_t>(neighbours.edges()));
@@ -32,14 +32,15 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
       const std::int32_t b = neighbours.column[e];
       const Vec<D> R = (X[a] - X[b]).template head<D>() / h;
       const double volume = V[b] / std::pow(h, D);
-      const double lap_W = Wendland<D>::laplacian(R.norm(), neighbours.pair_support(a, b) / h);
+      const double lap_W = kernel.laplacian(R.norm(), neighbours.pair_support(a, b) / h);
       const Unknowns q = basis(R);
       M += volume * q * q.transpose();
       right -= volume * lap_W * q;
     }
     right[D] += 2 * D;
     const Eigen::FullPivLU<System> lu(M);
-    if (!(lu.rcond() > 1e-12))
+    // rcond() of a matrix that is singular to the last bit is that of its regular part.
+    if (!lu.isInvertible() || !(lu.rcond() > 1e-12))
       throw InputError(
           fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few or too "
                       "regularly placed for a Laplacian",
@@ -50,7 +51,7 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
       const std::int32_t b = neighbours.column[e];
       const Vec<D> R = (X[a] - X[b]).template head<D>() / h;
-      const double lap_W = Wendland<D>::laplacian(R.norm(), neighbours.pair_support(a, b) / h);
+      const double lap_W = kernel.laplacian(R.norm(), neighbours.pair_support(a, b) / h);
       laplacian.l[e] = V[b] / std::pow(h, D) * (lap_W + alpha_beta.dot(basis(R))) / (h * h);
       sum += laplacian.l[e];
     }
@@ -59,7 +60,9 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
   return laplacian;
 }
 
-template Laplacian build_laplacian<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
-template Laplacian build_laplacian<3>(std::span<const Vec3>, std::span<const double>, const Neighbours&);
+template Laplacian build_laplacian<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&,
+                                      const Kernel<2>&);
+template Laplacian build_laplacian<3>(std::span<const Vec3>, std::span<const double>, const Neighbours&,
+                                      const Kernel<3>&);
 
 } // namespace tessera::solver

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/neighbours.hpp"
+#include "solver/operators/kernel.hpp"
 
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@ struct Laplacian {
 /// Throws InputError naming the particle, its neighbour count and the remedy where the correction is
 /// singular.
 template <int D>
-Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours);
+Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
+                          const Kernel<D>& kernel = {});
 
 } // namespace tessera::solver

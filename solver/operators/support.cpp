@@ -14,7 +14,7 @@ Neighbours uniform_support(std::span<const Vec3> X, double radius, const HiddenP
 
 template <int D>
 Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours,
-                            const HiddenPairs& hidden) {
+                            const HiddenPairs& hidden, const Kernel<D>& kernel) {
   require(static_cast<std::size_t>(neighbours) < X.size(),
           fmt::format("{} neighbours asked for in a cloud of {} particles", neighbours, X.size()),
           "solver.neighbours", "ask for fewer, or for more particles");
@@ -27,7 +27,7 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
     Neighbours found = find_neighbours(X, support, hidden);
     std::vector<std::uint8_t> grow(X.size(), 0);
     for_each(found.size(), [&](std::int64_t a) {
-      grow[a] = !(condition_number<D>(moment_matrix<D>(a, X, V, found)) < ill_conditioned);
+      grow[a] = !(condition_number<D>(moment_matrix<D>(a, X, V, found, kernel)) < ill_conditioned);
     });
     bool any = false;
     for (std::size_t a = 0; a < X.size(); ++a)
@@ -43,8 +43,8 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
 }
 
 template Neighbours adaptive_support<2>(std::span<const Vec3>, std::span<const double>, int,
-                                        const HiddenPairs&);
+                                        const HiddenPairs&, const Kernel<2>&);
 template Neighbours adaptive_support<3>(std::span<const Vec3>, std::span<const double>, int,
-                                        const HiddenPairs&);
+                                        const HiddenPairs&, const Kernel<3>&);
 
 } // namespace tessera::solver

@@ -3,6 +3,7 @@
 
 #include "core/neighbours.hpp"
 #include "core/tensor.hpp"
+#include "solver/operators/kernel.hpp"
 
 #include <span>
 #include <vector>
@@ -17,6 +18,6 @@ Neighbours uniform_support(std::span<const Vec3> X, double radius, const HiddenP
 /// that many particles.
 template <int D>
 Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, int neighbours,
-                            const HiddenPairs& hidden = {});
+                            const HiddenPairs& hidden = {}, const Kernel<D>& kernel = {});
 
 } // namespace tessera::solver

@@ -39,7 +39,8 @@ Neighbours build_graph(const SceneSpec& scene, const ParticleCloud& cloud) {
     if (cloud.arrangement == "lattice")
       return uniform_support(cloud.X, lattice_support * cloud.spacing, cloud.hidden);
     const int neighbours = scene.neighbours > 0 ? scene.neighbours : usual_neighbours;
-    return adaptive_support<D>(cloud.X, cloud.V, neighbours, cloud.hidden);
+    return adaptive_support<D>(cloud.X, cloud.V, neighbours, cloud.hidden,
+                               Kernel<D>{kernel_named(scene.kernel)});
   };
   Neighbours graph = supported();
   for (std::size_t a = 0; a < cloud.sight.size(); ++a)
@@ -98,7 +99,8 @@ std::vector<Plane<D>> plane_walls(const SceneSpec& scene, const ParticleCloud& c
 template <int D, ConstitutiveLaw L, class Use>
 auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const L& law, Use&& use) {
   Neighbours graph = build_graph<D>(scene, cloud);
-  Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
+  const Kernel<D> kernel{kernel_named(scene.kernel)};
+  Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph, kernel);
   const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);
   const double smallest = *std::min_element(nearest.begin(), nearest.end());
   const double wave_speed = std::sqrt(law.linearised().pressure_wave_modulus() / scene.material.density);
@@ -118,8 +120,8 @@ auto with_dissipation(const SceneSpec& scene, const ParticleCloud& cloud, const 
   };
   if (scene.jst4 == 0)
     return assemble(NoDissipation{});
-  return assemble(
-      Jst<D>{build_laplacian<D>(cloud.X, cloud.V, graph), scene.jst4 * smallest * smallest * smallest});
+  return assemble(Jst<D>{build_laplacian<D>(cloud.X, cloud.V, graph, kernel),
+                         scene.jst4 * smallest * smallest * smallest});
 }
 
 template <class L, class Use>

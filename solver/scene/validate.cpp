@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "solver/operators/kernel.hpp"
 #include "solver/physics/materials/catalogue.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
@@ -87,7 +88,7 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
 
   name("solver.formulation", scene.formulation, {"auto", "pF"});
   name("solver.scheme", scene.scheme, {"thesis"});
-  name("solver.kernel", scene.kernel, {"wendland"});
+  name("solver.kernel", scene.kernel, kernel_names());
   if (scene.support)
     number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
            "above 1 and at most 6 (kernel radius over the spacing)");

@@ -104,7 +104,7 @@ TEST(Validate, RefusesImpossibleValues) {
   EXPECT_NE(message([](SceneSpec& s) { s.material.plasticity->hardening = -1; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.formulation = "pFJ2"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.scheme = "best"; }), "");
-  EXPECT_NE(message([](SceneSpec& s) { s.kernel = "cubic"; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { s.kernel = "qubic"; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.support = 1.0; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.neighbours = 3; }), "");
   EXPECT_NE(message([](SceneSpec& s) { s.jst4 = -0.1; }), "");
