@@ -165,6 +165,13 @@ TEST(Sampling, ParticlesThatDoNotSpanSpaceAreRefused) {
   auto sheet = test::box_lattice(6, 6, 1, Vec3(1, 1, 0));
   sheet.dimension = 3;
   EXPECT_NE(refusal(Vec3(0.5, 0.5, 0), sheet).find("do not span space within"), std::string::npos);
+  std::vector<std::array<std::int32_t, 2>> pairs; // the corner sees nobody
+  for (std::int32_t b = 1; b < 36; ++b)
+    pairs.push_back({0, b});
+  EXPECT_THROW(build_sampling<2>(Vec3(0, 0, 0), sheet.X, sheet.V, HiddenPairs(36, pairs)), InputError);
+  auto heap = sheet;
+  heap.X.assign(36, Vec3::Ones());
+  EXPECT_NE(refusal(Vec3::Ones(), heap).find("do not span space within"), std::string::npos);
   sheet.X.resize(6);
   EXPECT_NE(refusal(Vec3(0.5, 0, 0), sheet).find("more than 6 particles"), std::string::npos);
 }
