@@ -39,7 +39,8 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     }
     right[D] += 2 * D;
     const Eigen::FullPivLU<System> lu(M);
-    if (!(lu.rcond() > 1e-12))
+    // rcond() of a matrix that is singular to the last bit is that of its regular part.
+    if (!lu.isInvertible() || !(lu.rcond() > 1e-12))
       throw InputError(
           fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few or too "
                       "regularly placed for a Laplacian",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double ill_conditioned = 1e3;
 constexpr double largest_correction = 3; // magnitudes of the weights sum to at most one more
-constexpr double first_reach = 2, largest_growth = 4;
+constexpr double first_reach = 2;
+constexpr int rounds = 15;       // of growth by a tenth: fourfold
 constexpr double outside = 1.25; // over the spacing at the nearest particle
 
 /// Distances of all particles from x, infinite where the particle is hidden from `from` (-1: none is).
@@ -50,6 +52,9 @@ Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<co
   const auto nearest = std::min_element(all.begin(), all.end()) - all.begin();
   const Vec<D> X_nearest = X[nearest].template head<D>();
   const double reach = outside * smallest(distances<D>(X_nearest, X, hidden, nearest), 2 * D);
+  require(std::isfinite(reach),
+          fmt::format("particle {}, the nearest to {}, sees fewer than {} others", nearest, name, 2 * D), "",
+          "ask for more particles");
   require(all[nearest] <= reach,
           fmt::format("{} lies outside the body: the nearest particle, {}, is {:.4g} m away, the cloud "
                       "reaches {:.4g} m there",
@@ -57,8 +62,8 @@ Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<co
           "", "move it into the body (reference position, m)");
 
   const std::vector<double> r = distances<D>(x, X, hidden, nearest);
-  const double first = first_reach * smallest(r, D);
-  for (double s = first; s <= largest_growth * first; s *= 1.1) {
+  double s = first_reach * smallest(r, D);
+  for (int round = 0; round < rounds; ++round, s *= 1.1) {
     Sampling sampling{{}, {}, s};
     double total = 0;
     Vec<D> mean = Vec<D>::Zero();
@@ -71,8 +76,7 @@ Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<co
         mean += sampling.weight.back() * offset(sampling.particle.back());
       }
     mean /= total;
-    // Moments about the mean instead of about x, as in (3.59b): the same weights, solved without
-    // cancellation.
+    // (3.59b) takes moments about x; about the mean the same weights come without cancellation.
     Mat<D> M = Mat<D>::Zero();
     for (std::size_t i = 0; i < sampling.particle.size(); ++i) {
       sampling.weight[i] /= total;
@@ -90,7 +94,7 @@ Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<co
     return sampling;
   }
   throw InputError(fmt::format("the particles about {} do not span {} within {:.4g} m", name,
-                               D == 3 ? "space" : "the plane", largest_growth * first),
+                               D == 3 ? "space" : "the plane", s),
                    "", "move it to where the body is thicker, or ask for more particles");
 }
 

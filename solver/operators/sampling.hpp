@@ -40,7 +40,7 @@ struct Sampling {
 ///
 /// Throws InputError where the point lies outside the cloud, that is farther from the nearest particle than
 /// 1.25 times that particle's distance to its own 2D-th nearest (1.25 to 1.8 spacings on a lattice, 2.5 at a
-/// plane one's corners), and where the particles about it do not span D dimensions.
+/// plane one's corners), and where the particles about it are fewer than that or do not span D dimensions.
 template <int D>
 Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<const double> V,
                         const HiddenPairs& hidden = {}, const Kernel<D>& kernel = {});

@@ -83,11 +83,11 @@ class Reporter {
  private:
   std::vector<std::string> columns() const {
     std::vector<std::string> names(history_columns.begin(), history_columns.end());
-    for (const Probe& probe : scene_.probes)
-      names.push_back(column_name(probe));
     for (const auto& wall : assembly_.step.walls())
       for (const char* what : {"_force_x_N", "_force_y_N", "_force_z_N", "_friction_N", "_pressure_Pa"})
         names.push_back(wall.name() + what);
+    for (const Probe& probe : scene_.probes)
+      names.push_back(column_name(probe));
     return names;
   }
 
@@ -125,9 +125,9 @@ class Reporter {
                                energy_.balance_error};
     row.insert(row.end(), m.linear.begin(), m.linear.end());
     row.insert(row.end(), m.angular.begin(), m.angular.end());
+    contact(time, row);
     for (ProbeReader& probe : probes_)
       row.push_back(probe.read(arrays_.probe_fields(cloud_)));
-    contact(time, row);
     outputs_.history_row(row);
   }
 

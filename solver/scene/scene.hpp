@@ -96,7 +96,7 @@ struct SceneSpec {
   MaterialSpec material;
   std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
   std::string scheme = "thesis";    ///< thesis
-  std::string kernel = "wendland";  ///< wendland
+  std::string kernel = "wendland";  ///< one of kernel_names()
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
   /// particle's own radius that holds `neighbours` of them.
   std::optional<double> support;

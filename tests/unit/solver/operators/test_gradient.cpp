@@ -18,12 +18,12 @@ struct Clouds {
   Neighbours graph;
 };
 
-std::vector<Clouds> solid_clouds() {
+std::vector<Clouds> solid_clouds(const Kernel<3>& kernel = {}) {
   std::vector<Clouds> list;
   const auto lattice = test::box_lattice(7, 6, 8, Vec3(1.2, 1, 1.4));
   list.push_back({lattice, uniform_support(lattice.X, 2.2 * lattice.spacing)});
   const auto irregular = test::jittered(lattice, 0.3, 11);
-  list.push_back({irregular, adaptive_support<3>(irregular.X, irregular.V, 30)});
+  list.push_back({irregular, adaptive_support<3>(irregular.X, irregular.V, 30, {}, kernel)});
   // The same in micrometres: weights must not depend on the unit.
   auto small = irregular;
   for (Vec3& x : small.X)
@@ -31,13 +31,13 @@ std::vector<Clouds> solid_clouds() {
   for (double& v : small.V)
     v *= 1e-18;
   small.spacing *= 1e-6;
-  list.push_back({small, adaptive_support<3>(small.X, small.V, 30)});
+  list.push_back({small, adaptive_support<3>(small.X, small.V, 30, {}, kernel)});
   return list;
 }
 
 template <int D>
-void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph) {
-  const auto gradient = build_gradient<D>(cloud.X, cloud.V, graph);
+void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph, const Kernel<D>& kernel) {
+  const auto gradient = build_gradient<D>(cloud.X, cloud.V, graph, kernel);
   Mat<D> slope;
   for (int i = 0; i < D * D; ++i)
     slope.data()[i] = 0.3 * i - 0.8;
@@ -56,11 +56,18 @@ void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph) {
 
 } // namespace
 
-TEST(Gradient, IsExactOnLinearFields) {
-  for (const auto& [cloud, graph] : solid_clouds())
-    exact_on_linear<3>(cloud, graph);
-  const auto plane = test::jittered(test::box_lattice(9, 11, 1, Vec3(1, 1, 0)), 0.3, 3);
-  exact_on_linear<2>(plane, adaptive_support<2>(plane.X, plane.V, 12));
+TEST(Gradient, IsExactOnLinearFieldsWithEveryKernel) {
+  const auto lattice = test::box_lattice(9, 11, 1, Vec3(1, 1, 0));
+  const auto plane = test::jittered(lattice, 0.3, 3);
+  for (const std::string& name : kernel_names()) {
+    SCOPED_TRACE(name);
+    const Kernel<3> solid{kernel_named(name)};
+    for (const auto& [cloud, graph] : solid_clouds(solid))
+      exact_on_linear<3>(cloud, graph, solid);
+    const Kernel<2> flat{kernel_named(name)};
+    exact_on_linear<2>(lattice, uniform_support(lattice.X, 2.2 * lattice.spacing), flat);
+    exact_on_linear<2>(plane, adaptive_support<2>(plane.X, plane.V, 12, {}, flat), flat);
+  }
 }
 
 TEST(Gradient, DivergenceIsMinusItsWeightedTranspose) {
@@ -109,14 +116,16 @@ TEST(Gradient, ForcesOfAnyStressSumToZero) {
   }
 }
 
-TEST(Gradient, TooSmallASupportNamesTheParticleAndItsNeighbours) {
+TEST(Gradient, TooSmallASupportNamesTheParticleAndItsNeighboursWithEveryKernel) {
   const auto cloud = test::box_lattice(4, 4, 4, Vec3(1, 1, 1));
-  try {
-    build_gradient<3>(cloud.X, cloud.V, uniform_support(cloud.X, 0.9 * cloud.spacing));
-    FAIL() << "built";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("particle 0 at (0, 0, 0) m has 0 neighbours"), std::string::npos)
-        << error.what();
-    EXPECT_NE(std::string(error.what()).find("raise solver.support"), std::string::npos);
-  }
+  for (const std::string& name : kernel_names())
+    try {
+      build_gradient<3>(cloud.X, cloud.V, uniform_support(cloud.X, 0.9 * cloud.spacing),
+                        {kernel_named(name)});
+      FAIL() << name << " built";
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find("particle 0 at (0, 0, 0) m has 0 neighbours"), std::string::npos) << message;
+      EXPECT_NE(message.find("raise solver.support"), std::string::npos);
+    }
 }

@@ -29,6 +29,16 @@ TEST(Support, EveryParticleOfAnIrregularCloudHasEnoughNeighboursOfItsOwn) {
   }
 }
 
+TEST(Support, IsConditionedForTheKernelItIsAskedFor) {
+  const auto cloud = test::jittered(test::box_lattice(25, 21, 1, Vec3(1.2, 1, 0)), 0.5, 7);
+  for (const std::string& name : kernel_names()) {
+    const Kernel<2> kernel{kernel_named(name)};
+    const Neighbours graph = adaptive_support<2>(cloud.X, cloud.V, 3, {}, kernel);
+    for (std::int64_t a = 0; a < graph.size(); ++a)
+      EXPECT_LT(condition_number<2>(moment_matrix<2>(a, cloud.X, cloud.V, graph, kernel)), 1e3) << name;
+  }
+}
+
 TEST(Support, MoreNeighboursThanParticlesIsAnError) {
   const auto cloud = test::box_lattice(3, 3, 3, Vec3(1, 1, 1));
   EXPECT_THROW(adaptive_support<3>(cloud.X, cloud.V, 30), InputError);
