@@ -122,7 +122,7 @@ class Body {
   const std::vector<double> V; ///< subvolumes, m^3
   const double density;        ///< reference density, kg/m^3
   const double wave_speed;     ///< of pressure waves, undeformed, m/s
-  const std::unique_ptr<Material<D>> material;
+  std::unique_ptr<Material<D>> material;
   const Neighbours neighbours;
   const Gradient<D> gradient;
   Dissipation dissipation;

@@ -71,7 +71,8 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
       ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material), std::move(graph),
                 std::move(gradient), std::move(dissipation),
                 Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
-      Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection), smallest};
+      Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection),
+      smallest};
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
 }

@@ -122,9 +122,10 @@ std::vector<Wall<D>> contact_walls(const SceneSpec& scene, const ParticleCloud& 
   for (const WallSpec& spec : scene.walls) {
     const auto shape = on_the_bodys_side(spec.shape, cloud.X);
     for (std::size_t a = 0; a < cloud.X.size(); ++a)
-      require(shape->gap(cloud.X[a]).distance > -0.5 * cloud.spacing,
-              fmt::format("the body begins behind a wall: particle {} is on the far side of {}", a, spec.name),
-              "", "move the wall, or turn its free side to the body");
+      require(
+          shape->gap(cloud.X[a]).distance > -0.5 * cloud.spacing,
+          fmt::format("the body begins behind a wall: particle {} is on the far side of {}", a, spec.name),
+          "", "move the wall, or turn its free side to the body");
     const ContactLaw law{spec.method, spec.friction, spec.restitution,
                          spec.stiffness * modulus / (smallest * smallest)};
     walls.emplace_back(spec.name, shape, law, spec.velocity.head<D>(), cloud.X.size());

@@ -9,8 +9,8 @@
 
 namespace tessera::solver {
 
-/// For a body of this pressure wave modulus (Pa) and smallest particle distance (m). Throws InputError where a
-/// set has no surface to slide on or to load, or the body begins behind a wall.
+/// For a body of this pressure wave modulus (Pa) and smallest particle distance (m). Throws InputError where
+/// a set has no surface to slide on or to load, or the body begins behind a wall.
 template <int D>
 Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud, double modulus,
                               double smallest);

@@ -131,7 +131,8 @@ class Reporter {
     outputs_.history_row(row);
   }
 
-  /// What the walls did since the last row: mean forces, and the largest pressure on a particle's own surface.
+  /// What the walls did since the last row: mean forces, and the largest pressure on a particle's own
+  /// surface.
   void contact(double time, std::vector<double>& row) {
     for (auto& wall : assembly_.step.walls()) {
       const auto report = wall.report(assembly_.body.V, boundary_area_, time - contact_since_);

@@ -4,10 +4,10 @@
 #include "core/frame.hpp"
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
-#include "solver/physics/jst.hpp"
-#include "solver/physics/plasticity/hardening.hpp"
 #include "solver/boundary/plane.hpp"
 #include "solver/boundary/wall.hpp"
+#include "solver/physics/jst.hpp"
+#include "solver/physics/plasticity/hardening.hpp"
 #include "solver/scene/expression.hpp"
 
 #include <array>

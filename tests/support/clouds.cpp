@@ -16,31 +16,46 @@ ParticleCloud box_lattice(int nx, int ny, int nz, const Vec3& size) {
     h[c] = size[c] / (n[c] - 1);
   cloud.spacing = h.head(cloud.dimension).minCoeff();
   const int last_axis = cloud.dimension - 1;
-  ParticleSet base{"base", {}, {}}, top{"top", {}, {}};
+  for (int c = 0; c < cloud.dimension; ++c)
+    for (const char* end : {"_min", "_max"})
+      cloud.sets.push_back({std::string(1, "xyz"[c]) + end, {}, {}});
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
         const int index[3] = {i, j, k};
         double volume = 1;
+        Vec3 width = Vec3::Ones();
         int faces = 0;
         for (int c = 0; c < cloud.dimension; ++c) {
           const bool end = index[c] == 0 || index[c] == n[c] - 1;
-          volume *= end ? h[c] / 2 : h[c];
+          width[c] = end ? h[c] / 2 : h[c];
+          volume *= width[c];
           faces += end;
         }
         const auto id = static_cast<std::int32_t>(cloud.X.size());
-        if (index[last_axis] == 0)
-          base.particles.push_back(id);
-        if (index[last_axis] == n[last_axis] - 1)
-          top.particles.push_back(id);
+        Vec3 A = Vec3::Zero();
+        for (int c = 0; c < cloud.dimension; ++c)
+          for (const int end : {0, 1}) {
+            if (index[c] != end * (n[c] - 1))
+              continue;
+            const Vec3 face = (2 * end - 1) * (volume / width[c]) * Vec3::Unit(c);
+            ParticleSet& set = cloud.sets[static_cast<std::size_t>(2 * c + end)];
+            set.particles.push_back(id);
+            set.area.push_back(face);
+            A += face;
+          }
+        cloud.A.push_back(A);
         cloud.X.emplace_back(i * h[0], j * h[1], k * h[2]);
         cloud.V.push_back(volume);
         cloud.domain_volume += volume;
         cloud.cad_dimension.push_back(static_cast<std::uint8_t>(cloud.dimension - faces));
       }
-  cloud.A.assign(cloud.X.size(), Vec3::Zero());
   cloud.centroid = cloud.X;
-  cloud.sets = {base, top};
+  for (const int end : {0, 1}) {
+    ParticleSet named = cloud.sets[static_cast<std::size_t>(2 * last_axis + end)];
+    named.name = end == 0 ? "base" : "top";
+    cloud.sets.push_back(std::move(named));
+  }
   return cloud;
 }
 

@@ -8,8 +8,8 @@
 namespace tessera::test {
 
 /// nx x ny x nz points over the box [0, size], boundary included, with their exact Voronoi subvolumes (half
-/// cells on faces, quarter cells on edges, eighths at corners). Dimension 2 when nz = 1. Sets: "base" and
-/// "top" (first and last layer along the last axis).
+/// cells on faces, quarter cells on edges, eighths at corners) and areas. Dimension 2 when nz = 1. Sets: the
+/// faces "x_min" ... "z_max", and "base" and "top" for those of the last axis.
 ParticleCloud box_lattice(int nx, int ny, int nz, const Vec3& size);
 
 /// The same points, each inner one moved by up to `shift` spacings in every direction (seeded). Subvolumes

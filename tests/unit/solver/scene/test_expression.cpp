@@ -28,3 +28,10 @@ TEST(Expression, AFaultIsReportedWithItsPosition) {
 TEST(Expression, AnInfiniteValueIsRefused) {
   EXPECT_THROW(Expression("1/X")(Vec3::Zero()), InputError);
 }
+
+TEST(Expression, KnowsTheTimeAndWhetherThePlaceMatters) {
+  EXPECT_EQ(Expression("-10*min(t/0.1, 1)")(Vec3::Zero(), 0.05), -5);
+  EXPECT_EQ(Expression("t")(Vec3::Zero()), 0);
+  EXPECT_TRUE(Expression("sin(t) + 2").uniform());
+  EXPECT_FALSE(Expression("t*Y").uniform());
+}
