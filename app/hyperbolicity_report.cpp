@@ -15,14 +15,14 @@ using solver::Hyperbolicity;
 using solver::StretchPath;
 using solver::StretchRegion;
 
-/// A path that ends before the range does, for want of equilibrium.
+/// A path whose equilibria end before the range does.
 bool ends_early(double end) {
   return std::abs(std::log(end)) < std::log(solver::stretch_range) - 1e-9;
 }
 
-/// "0.8744" lost there, "(0.396)" nothing in equilibrium from there on, "-" neither.
-std::string loss_text(const std::optional<double>& loss, double end) {
-  return loss ? fmt::format("{:.4f}", *loss) : ends_early(end) ? fmt::format("({:.3f})", end) : "-";
+/// "0.8744" lost there, "(0.396)" the path's equilibria end there, "-" neither.
+std::string loss_text(const std::optional<solver::StretchPoint>& loss, double end) {
+  return loss ? fmt::format("{:.4f}", loss->stretch) : ends_early(end) ? fmt::format("({:.3f})", end) : "-";
 }
 
 Json number_or_null(const std::optional<double>& value) {
@@ -30,8 +30,11 @@ Json number_or_null(const std::optional<double>& value) {
 }
 
 Json path_json(const StretchPath& path) {
-  return {{"lost_below", number_or_null(path.lost_below)},
-          {"lost_above", number_or_null(path.lost_above)},
+  const auto stretch = [](const std::optional<solver::StretchPoint>& point) {
+    return point ? Json(point->stretch) : Json();
+  };
+  return {{"lost_below", stretch(path.lost_below)},
+          {"lost_above", stretch(path.lost_above)},
           {"from", path.points.front().stretch},
           {"to", path.points.back().stretch}};
 }
@@ -63,6 +66,8 @@ post::Chart path_chart(const std::vector<Hyperbolicity>& laws, std::size_t path,
   constexpr double lowest = -1, highest = 2; // beyond these the curves say no more
   post::Chart chart{title, "Stretch", "Modulus / shear modulus at rest", true, false, {}};
   for (const Hyperbolicity& study : laws) {
+    if (study.subject.law == "linear_elastic") // whose waves know nothing of strain
+      continue;
     post::Curve curve;
     curve.label = study.subject.label;
     for (const solver::StretchPoint& point : study.paths[path].points) {
@@ -84,7 +89,7 @@ std::string hyperbolicity_table(const std::vector<Hyperbolicity>& laws) {
       "Principal stretches {:g} to {:g}. Lost: the part of them where some wave is not real, of all, in "
       "plane "
       "strain and at J = 1.\nThen the first stretch under and over 1 where that is so along each path; in "
-      "brackets, where the path ends for want of equilibrium.\n\n{:<25}{:>8}{:>8}{:>8}",
+      "brackets, where the equilibria that begin at rest end.\n\n{:<25}{:>8}{:>8}{:>8}",
       1 / solver::stretch_range, solver::stretch_range, "", "lost", "plane", "J = 1");
   for (const std::string& path : solver::stretch_paths())
     text += fmt::format("{:>17}", path);

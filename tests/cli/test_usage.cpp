@@ -69,6 +69,26 @@ TEST(Usage, MaterialsListsLawsAndHardenings) {
   EXPECT_TRUE(place.listing().empty());
 }
 
+TEST(Usage, MaterialsAreStudiedForTheirWaves) {
+  const Workplace place;
+  const Result result = place.tessera({"materials", "--hyperbolicity", "-o", "study", "--json", "--quiet"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto laws = nlohmann::json::parse(result.out)["laws"];
+  const auto of = [&](const std::string& label) {
+    for (const auto& law : laws)
+      if (law["label"] == label)
+        return law;
+    return nlohmann::json();
+  };
+  EXPECT_EQ(of("Neo-Hookean 0.45")["lost_fraction"], 0);
+  EXPECT_NEAR(of("Ogden 0.4995")["paths"]["volumetric"]["lost_above"].get<double>(), 1.0895, 1e-4);
+  EXPECT_TRUE(of("Ogden 0.4995")["paths"]["volumetric"]["lost_below"].is_null());
+  EXPECT_EQ(lines(place.read("study/hyperbolicity.csv"))[0],
+            "label,law,path,stretch,stretch_1,stretch_2,stretch_3,slowest_over_mu");
+  EXPECT_EQ(place.read("study/hyperbolicity.json"), result.out);
+}
+
 TEST(Usage, MissingFiles) {
   const Workplace place;
   write_small_case(place);

@@ -75,24 +75,32 @@ double first_loss(const Lost& lost_at, double held, double lost, double toleranc
 StretchPath follow(const StudiedLaw& law, const std::string& name) {
   constexpr int steps = 80;
   StretchPath path{name, {}, {}, {}};
+  const auto point_at = [&](double t, double& lateral) -> std::optional<StretchPoint> {
+    const auto stretches = on_path(law, name, std::exp(t), lateral);
+    if (!stretches)
+      return std::nullopt;
+    return StretchPoint{std::exp(t), *stretches, slowest_at(law, *stretches) / law.mu};
+  };
   for (const double sign : {-1.0, 1.0}) {
     double lateral = 1;
-    std::optional<double>& loss = sign < 0 ? path.lost_below : path.lost_above;
+    std::optional<StretchPoint>& loss = sign < 0 ? path.lost_below : path.lost_above;
     for (int i = sign < 0 ? 0 : 1; i <= steps; ++i) {
-      const double t = sign * log_range * i / steps;
-      double lateral_before = lateral;
-      const auto stretches = on_path(law, name, std::exp(t), lateral);
-      if (!stretches)
+      const double t = sign * log_range * i / steps, lateral_before = lateral;
+      const auto point = point_at(t, lateral);
+      if (!point)
         break;
-      path.points.push_back({std::exp(t), *stretches, slowest_at(law, *stretches) / law.mu});
-      if (path.points.back().slowest < 0 && !loss)
-        loss = std::exp(first_loss(
-            [&](double at) {
-              double near = lateral_before;
-              const auto there = on_path(law, name, std::exp(at), near);
-              return !there || slowest_at(law, *there) < 0;
-            },
-            t - sign * log_range / steps, t, 1e-9));
+      path.points.push_back(*point);
+      if (point->slowest >= 0 || loss)
+        continue;
+      loss = point;
+      const auto lost_at = [&](double at) {
+        double near = lateral_before;
+        const auto there = point_at(at, near);
+        if (there && there->slowest < 0)
+          loss = there;
+        return !there || there->slowest < 0;
+      };
+      first_loss(lost_at, t - sign * log_range / steps, t, 1e-9);
     }
     if (sign < 0)
       std::reverse(path.points.begin(), path.points.end());
@@ -234,26 +242,31 @@ Hyperbolicity study_hyperbolicity(const StudiedLaw& law) {
   Hyperbolicity study{law, 0, {}, {}, {}, {}};
   constexpr int grid = 36;
   const auto log_stretch = [](int i) { return log_range * (2.0 * i / grid - 1); };
+  const auto lose = [&](double J) {
+    if (J >= 1 - 1e-9)
+      study.lost_swollen = std::min(study.lost_swollen.value_or(J), J);
+    else
+      study.lost_compressed = std::max(study.lost_compressed.value_or(J), J);
+  };
   int lost = 0, all = 0;
   for (int i = 0; i <= grid; ++i)
     for (int j = 0; j <= i; ++j)
       for (int k = 0; k <= j; ++k) { // sorted triples stand for all their permutations
         const int weight = i == j && j == k ? 1 : i == j || j == k ? 3 : 6;
-        const Vec3 t(log_stretch(i), log_stretch(j), log_stretch(k));
-        const Vec3 stretches = t.array().exp();
+        const Vec3 stretches = Vec3(log_stretch(i), log_stretch(j), log_stretch(k)).array().exp();
         all += weight;
-        if (slowest_at(law, stretches) >= 0)
-          continue;
-        lost += weight;
-        const double J = stretches.prod();
-        if (J >= 1 - 1e-12)
-          study.lost_swollen = std::min(study.lost_swollen.value_or(J), J);
-        else
-          study.lost_compressed = std::max(study.lost_compressed.value_or(J), J);
+        if (slowest_at(law, stretches) < 0) {
+          lost += weight;
+          lose(stretches.prod());
+        }
       }
   study.lost_fraction = static_cast<double>(lost) / all;
-  for (const std::string& path : stretch_paths())
-    study.paths.push_back(follow(law, path));
+  for (const std::string& name : stretch_paths()) {
+    study.paths.push_back(follow(law, name));
+    for (const auto& loss : {study.paths.back().lost_below, study.paths.back().lost_above})
+      if (loss)
+        lose(loss->stretches.prod());
+  }
   for (const char* region : {"plane_strain", "isochoric"})
     study.regions.push_back(trace(law, region));
   return study;

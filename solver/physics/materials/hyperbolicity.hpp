@@ -42,10 +42,9 @@ struct StretchPoint {
 
 /// A way through the stretched states, followed from rest to both sides.
 struct StretchPath {
-  std::string name; ///< of stretch_paths
-  std::vector<StretchPoint>
-      points; ///< by increasing stretch; ends early where no state of equilibrium is left
-  std::optional<double> lost_below, lost_above; ///< the first stretch under and over 1 without hyperbolicity
+  std::string name;                 ///< of stretch_paths
+  std::vector<StretchPoint> points; ///< by increasing stretch; ends early where the equilibria from rest do
+  std::optional<StretchPoint> lost_below, lost_above; ///< the first under and over 1 without hyperbolicity
 };
 
 /// uniaxial (s, l, l) and biaxial (s, s, l) with l such that its direction is free of stress; pure_shear
@@ -63,7 +62,7 @@ struct StretchRegion {
 struct Hyperbolicity {
   StudiedLaw subject;
   double lost_fraction; ///< of a grid of all three stretches even in their logarithms
-  /// Smallest volume ratio over 1, and largest under 1, at which a grid point is lost.
+  /// The smallest volume ratio from 1 on, and the largest under 1, at which a loss was seen on grid or paths.
   std::optional<double> lost_swollen, lost_compressed;
   std::vector<StretchPath> paths;
   std::vector<StretchRegion> regions;

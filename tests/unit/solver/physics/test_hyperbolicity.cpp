@@ -57,8 +57,8 @@ TEST(Hyperbolicity, SaintVenantKirchhoffLosesItWhereItsFormulasSay) {
   // Compressed evenly, S = (3 lambda + 2 mu) E I with s^2 = 1 + 2 E: shear waves S + mu s^2 go first.
   const Hyperbolicity study = study_hyperbolicity(named("Saint Venant 0.3"));
   const ElasticConstants e = ElasticConstants::from(17e6, 0.3);
-  EXPECT_NEAR(*path(study, "volumetric").lost_below, std::sqrt(1 - 2 * e.mu / (3 * e.lambda + 4 * e.mu)),
-              1e-8);
+  EXPECT_NEAR(path(study, "volumetric").lost_below->stretch,
+              std::sqrt(1 - 2 * e.mu / (3 * e.lambda + 4 * e.mu)), 1e-8);
   EXPECT_FALSE(path(study, "volumetric").lost_above);
   // Pulled, the sides of a bar with nu = 0.3 are gone where s^2 = 1 + 1 / nu.
   EXPECT_LT(path(study, "uniaxial").points.back().stretch, std::sqrt(1 + 1 / 0.3));
@@ -70,20 +70,21 @@ TEST(Hyperbolicity, HenckyLosesItInPureShearAndSwelling) {
   const Hyperbolicity study = study_hyperbolicity(named("Hencky 0.45"));
   // s and 1/s are the same state of shear.
   const StretchPath& shear = path(study, "pure_shear");
-  EXPECT_NEAR(*shear.lost_below * *shear.lost_above, 1, 1e-6);
+  EXPECT_NEAR(shear.lost_below->stretch * shear.lost_above->stretch, 1, 1e-6);
   // Swelling: the pressure wave, kappa (1 - ln J) + 4 mu/3.
   const ElasticConstants e = ElasticConstants::from(17e6, 0.45);
-  EXPECT_NEAR(3 * std::log(*path(study, "volumetric").lost_above), 1 + 4 * e.mu / (3 * e.kappa), 1e-8);
+  EXPECT_NEAR(3 * std::log(path(study, "volumetric").lost_above->stretch), 1 + 4 * e.mu / (3 * e.kappa),
+              1e-8);
   EXPECT_FALSE(path(study, "volumetric").lost_below);
 }
 
 TEST(Hyperbolicity, OfOgdensRubberEndsWhereItsVolumetricEnergyIsConcave) {
   const Hyperbolicity rubber = study_hyperbolicity(named("Ogden 0.4995"));
   // beta = 9: U'' < 0 beyond J = 10^(1/9); shear puts it off a little.
-  const double swollen = std::pow(*path(rubber, "volumetric").lost_above, 3);
+  const double swollen = path(rubber, "volumetric").lost_above->stretches.prod();
   EXPECT_GT(swollen, std::pow(10, 1.0 / 9));
   EXPECT_LT(swollen, 1.01 * std::pow(10, 1.0 / 9));
-  EXPECT_GE(*rubber.lost_swollen, swollen);
+  EXPECT_GT(*rubber.lost_swollen, std::pow(10, 1.0 / 9));
   EXPECT_FALSE(rubber.lost_compressed);
   EXPECT_EQ(rubber.regions[1].lost_fraction, 0); // none at J = 1
   // The isochoric part alone never does.
