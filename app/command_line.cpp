@@ -44,6 +44,9 @@ struct Grammar {
     CLI::App* check_command = add("check", "Validate a case and foretell its run; writes nothing", check);
     CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
 
+    CLI::App* materials_command =
+        add("materials", "The laws a case can name, with their constants and sources", materials);
+
     for (CLI::App* command : {run_command, prepare_command, solve_command, check_command})
       command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
           ->type_name("CASE.toml")
@@ -61,6 +64,12 @@ struct Grammar {
           ->type_name("DIR");
     for (CLI::App* command : {run_command, prepare_command})
       command->add_flag("--cells", o.cells, "Also write the Voronoi cells (cells.vtu)");
+    CLI::Option* hyperbolicity = materials_command->add_flag(
+        "--hyperbolicity", o.hyperbolicity, "Find the stretches at which each law's waves cease to be real");
+    materials_command
+        ->add_option("-o,--output", o.output, "Folder of the study (runs/hyperbolicity unless given)")
+        ->type_name("DIR")
+        ->needs(hyperbolicity);
     solve_command
         ->add_option("--cloud", o.cloud, "Particles to use (the output folder's cloud.vtp unless given)")
         ->type_name("FILE");

@@ -14,6 +14,7 @@ struct Options {
   std::filesystem::path output;               ///< -o; empty: chosen by the command
   std::filesystem::path cloud; ///< solve: particles stored earlier; empty: the output folder's own
   bool cells = false;          ///< run, prepare: also write the Voronoi cells
+  bool hyperbolicity = false;  ///< materials: where their waves are real
 
   std::vector<std::string> overrides; ///< --set key=value, in order
   int threads = 0;                    ///< 0: all cores

@@ -23,8 +23,8 @@ concept ConstitutiveLaw = requires(const L law, const Strain& strain, typename L
 };
 
 /// A law that knows how stiff it is under strain: stiffened_modulus(strain), Pa, the largest rho0 c^2 of
-/// pressure waves along the principal directions. No wave in any direction is faster than both that and the
-/// undeformed speed over the smallest stretch (tested at stretches of 0.3 to 3).
+/// pressure waves along the principal directions. With the undeformed modulus over the smallest stretch
+/// squared it bounds the waves of all directions (tested at stretches of 0.3 to 3).
 template <class L>
 concept StiffeningLaw = ConstitutiveLaw<L> && requires(const L law, const Strain& strain) {
   { law.stiffened_modulus(strain) } -> std::same_as<double>;

@@ -3,6 +3,7 @@
 #include "tests/cli/small_case.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace tessera::cli {
 namespace {
@@ -26,7 +27,7 @@ TEST(Usage, VersionAndHelp) {
 
 TEST(Usage, WrongCommandsAndOptions) {
   const Workplace place;
-  expect_error(place.tessera({}), {"no command", "run, prepare, solve, post, check, compare"});
+  expect_error(place.tessera({}), {"no command", "run, prepare, solve, post, check, compare, materials"});
   expect_error(place.tessera({"rum", "case.toml"}), {"unknown command 'rum'", "did you mean 'run'"});
   expect_error(place.tessera({"run", "case.toml", "--thread", "2"}),
                {"unknown option '--thread'", "did you mean '--threads'", "tessera run --help"});
@@ -42,6 +43,50 @@ TEST(Usage, WrongCommandsAndOptions) {
   expect_error(place.tessera({"compare", "a", "b"}), {"no finished run", "a"});
   expect_error(place.tessera({"post", "nowhere"}), {"no run is stored here", "nowhere"});
   EXPECT_TRUE(place.listing().empty());
+}
+
+TEST(Usage, MaterialsListsLawsAndHardenings) {
+  const Workplace place;
+  const Result text = place.tessera({"materials"});
+  EXPECT_EQ(text.status, 0);
+  EXPECT_EQ(text.err, "");
+  for (const char* piece :
+       {"mooney_rivlin\n", "(2.68), (2.132)", "list: one a term", "power.offset", "(5.7)"})
+    EXPECT_NE(text.out.find(piece), std::string::npos) << piece;
+  const Result machine = place.tessera({"materials", "--json"});
+  EXPECT_EQ(machine.status, 0);
+  const auto json = nlohmann::json::parse(machine.out);
+  ASSERT_EQ(json["laws"].size(), 6U);
+  EXPECT_EQ(json["laws"][0]["name"], "hencky");
+  EXPECT_EQ(json["laws"][0]["plasticity"], true);
+  EXPECT_EQ(json["laws"][5]["parameters"][1]["key"], "mu");
+  EXPECT_EQ(json["laws"][5]["parameters"][1]["unit"], "Pa");
+  EXPECT_EQ(json["laws"][5]["parameters"][1]["list"], true);
+  ASSERT_EQ(json["hardenings"].size(), 2U);
+  EXPECT_EQ(json["hardenings"][1]["parameters"][0]["key"], "power.coefficient");
+  expect_error(place.tessera({"materials", "steel"}), {"unexpected argument 'steel'"});
+  expect_error(place.tessera({"materials", "-o", "out"}), {"--hyperbolicity"});
+  EXPECT_TRUE(place.listing().empty());
+}
+
+TEST(Usage, MaterialsAreStudiedForTheirWaves) {
+  const Workplace place;
+  const Result result = place.tessera({"materials", "--hyperbolicity", "-o", "study", "--json", "--quiet"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const auto laws = nlohmann::json::parse(result.out)["laws"];
+  const auto of = [&](const std::string& label) {
+    for (const auto& law : laws)
+      if (law["label"] == label)
+        return law;
+    return nlohmann::json();
+  };
+  EXPECT_EQ(of("Neo-Hookean 0.45")["lost_fraction"], 0);
+  EXPECT_NEAR(of("Ogden 0.4995")["paths"]["volumetric"]["lost_above"].get<double>(), 1.0895, 1e-4);
+  EXPECT_TRUE(of("Ogden 0.4995")["paths"]["volumetric"]["lost_below"].is_null());
+  EXPECT_EQ(lines(place.read("study/hyperbolicity.csv"))[0],
+            "label,law,path,stretch,stretch_1,stretch_2,stretch_3,slowest_over_mu");
+  EXPECT_EQ(place.read("study/hyperbolicity.json"), result.out);
 }
 
 TEST(Usage, MissingFiles) {

@@ -52,6 +52,23 @@ const std::vector<LawDescription>& law_catalogue() {
   return laws;
 }
 
+const std::vector<HardeningDescription>& hardening_catalogue() {
+  static const std::vector<HardeningDescription> hardenings = {
+      {"linear",
+       "yield + hardening eps",
+       "algorithm 2",
+       {{"yield", "Pa", "initial yield stress, positive"},
+        {"hardening", "Pa", "isotropic hardening modulus, zero or positive"}}},
+      {"power",
+       "coefficient (offset + eps)^exponent",
+       "(5.7)",
+       {{"power.coefficient", "Pa", "positive"},
+        {"power.offset", "-", "positive"},
+        {"power.exponent", "-", "from 0, perfectly plastic, to 1, linear"}}},
+  };
+  return hardenings;
+}
+
 std::vector<std::string> law_names() {
   std::vector<std::string> names;
   for (const LawDescription& law : law_catalogue())

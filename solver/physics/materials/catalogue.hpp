@@ -22,8 +22,18 @@ struct LawDescription {
   bool plasticity = false; ///< whether [material.plasticity] may stand beside it
 };
 
+/// How a law that flows hardens.
+struct HardeningDescription {
+  std::string what;
+  std::string yield_stress; ///< of the equivalent plastic strain eps
+  std::string source;
+  std::vector<LawParameter> parameters; ///< of [material.plasticity]
+};
+
 /// Hencky first, then from the simplest on.
 const std::vector<LawDescription>& law_catalogue();
+
+const std::vector<HardeningDescription>& hardening_catalogue();
 
 /// Names of the catalogue in its order.
 std::vector<std::string> law_names();

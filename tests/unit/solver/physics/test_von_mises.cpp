@@ -285,6 +285,17 @@ TYPED_TEST(VonMisesLaw, UnloadsElastically) {
   EXPECT_EQ(history.plastic_metric, held.plastic_metric);
 }
 
+TYPED_TEST(VonMisesLaw, StressOfTheStateItHasFlownToIsTheSameAgain) {
+  typename TestFixture::History history;
+  const Mat3 F = rotation(0.3) * shear(0.7);
+  const Mat3 once = this->kirchhoff(F, history);
+  const typename TestFixture::History held = history;
+  for (int i = 0; i < 10; ++i)
+    EXPECT_LT((this->kirchhoff(F, history) - once).norm() / once.norm(), 1e-12);
+  EXPECT_NEAR(history.equivalent_plastic_strain, held.equivalent_plastic_strain, 1e-14);
+  EXPECT_LT((history.plastic_metric - held.plastic_metric).norm(), 1e-13);
+}
+
 TYPED_TEST(VonMisesLaw, StressJoinsTheDerivativesOfItsEnergyAtFixedHistory) {
   typename TestFixture::History history;
   const Mat3 loaded = rotation(0.4) * uniaxial(this->yield(0.4), 0.4);

@@ -110,6 +110,24 @@ TEST(Run, ABlowUpNamesParticleStepAndTimeAndLeavesTheLastGoodFrame) {
   EXPECT_EQ(recorded.rows.back()[0], recorded.frame_times.back());
 }
 
+TEST(Run, ABarHardensByAPowerAsItDoesLinearly) {
+  // Exponent 1 is the straight line of yield and hardening.
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  const Summary linear = run(scene, cloud, {}, Progress::silent());
+  scene.material.plasticity = PowerHardening{0.1e9, 4, 1};
+  const Summary straight = run(scene, cloud, {}, Progress::silent());
+  EXPECT_GT(linear.extremes.equivalent_plastic_strain, 0.01);
+  EXPECT_NEAR(straight.extremes.equivalent_plastic_strain / linear.extremes.equivalent_plastic_strain, 1,
+              1e-9);
+  EXPECT_NEAR(straight.energy.plastic / linear.energy.plastic, 1, 1e-9);
+  // Curved, it keeps its ledger of energy as well.
+  scene.material.plasticity = PowerHardening{0.6e9, 0.02, 0.27};
+  const Summary curved = run(scene, cloud, {}, Progress::silent());
+  EXPECT_GT(curved.extremes.equivalent_plastic_strain, 0.01);
+  EXPECT_LT(curved.energy.balance_error, 2 * linear.energy.balance_error);
+}
+
 TEST(Run, ASupportTooSmallIsRefusedBeforeTheFirstStep) {
   const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
   SceneSpec scene = impact();
