@@ -93,9 +93,9 @@ class Wall {
     if (law_.method != ContactMethod::reflection)
       return 0;
     const Moment now{density, dt, share, time * velocity_, density * velocity_};
-    const auto n = static_cast<std::int64_t>(x.size());
     const auto each = [&](auto limited) {
-      return sum(n, std::int64_t{0}, [&](std::int64_t a) -> std::int64_t { return limited(a) ? 1 : 0; });
+      return sum(static_cast<std::int64_t>(x.size()), std::int64_t{0},
+                 [&](std::int64_t a) -> std::int64_t { return limited(a) ? 1 : 0; });
     };
     if (plane_ != nullptr) {
       const Vec<D> n = plane_->normal().template head<D>();
