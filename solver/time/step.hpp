@@ -29,12 +29,14 @@ class Step {
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
-    if (!walls_.empty())
+    if (!walls_.empty()) {
       contact_.assign(body.V.size(), Vec<D>::Zero());
+      place_ = body.U.x;
+    }
     for (const Fixed<D>& condition : fixed_)
       condition.apply(body.U.p);
     before_ = body.U;
-    hold(body, time_, dt, 1.0);
+    hold(body, body.U.x, 0, dt, 1.0);
     account(body);
   }
 
@@ -48,18 +50,18 @@ class Step {
       project(body, U.x, dt);
       push(body, before_.x, time_, dt);
       advance(U, dt, R);
-      hold(body, time_ + dt, dt, 0.5);
+      hold_middle(body, dt);
       body.stresses();
 
       body.rates();
       if (pushes_)
-        x_star_ = U.x;
+        place_ = U.x;
       average(U.x, before_.x, dt, R.x);
       project(body, U.x, dt);
-      push(body, x_star_, time_ + dt, dt);
+      push(body, place_, time_ + dt, dt);
       average(U.p, before_.p, dt, R.p);
       average(U.F, before_.F, dt, R.F);
-      hold(body, time_ + dt, dt, 1.0);
+      hold(body, U.x, time_ + dt, dt, 1.0);
       body.commit();
     } catch (const Breakdown&) {
       body.U = before_;
@@ -78,9 +80,17 @@ class Step {
     for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
   }
 
-  /// Essential conditions and contact on the momenta of a stage; `share` of a change reaches U^(n+1).
-  void hold(Body& body, double time, double dt, double share) {
-    limit_by<D>(walls_, body.U.x, body.U.p, body.density, time, dt, share, contact_);
+  /// The first stage's momenta move a particle from the middle of x^n and x* to x^(n+1), in dt/2.
+  void hold_middle(Body& body, double dt) {
+    if (!walls_.empty())
+      for_each(body.size(), [&](std::int64_t a) { place_[a] = 0.5 * (before_.x[a] + body.U.x[a]); });
+    hold(body, place_, time_ + 0.5 * dt, 0.5 * dt, 0.5);
+  }
+
+  /// Essential conditions, and contact of particles at x, on the momenta of a stage; `share` of a change
+  /// reaches U^(n+1).
+  void hold(Body& body, const std::vector<Vec<D>>& x, double time, double dt, double share) {
+    limit_by<D>(walls_, x, body.U.p, body.density, time, dt, share, contact_);
     for (const Fixed<D>& condition : fixed_)
       condition.apply(body.U.p);
   }
@@ -112,7 +122,7 @@ class Step {
   typename Body::Formulation before_;
   std::vector<Vec<D>> numerical_; ///< impulse of dissipation and projection in this step, kg/(m^2 s)
   std::vector<Vec<D>> contact_;   ///< impulse of the walls in this step, kg/(m^2 s)
-  std::vector<Vec<D>> x_star_;    ///< positions of the second stage, for penalties
+  std::vector<Vec<D>> place_;     ///< where a stage's contact is judged
   double time_ = 0;               ///< s
   double dissipated_ = 0;
   double external_ = 0;

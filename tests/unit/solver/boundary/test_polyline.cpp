@@ -254,6 +254,20 @@ TEST(Channel, AParticleDrivenIntoACornerStopsThereWhateverWallIsFirst) {
       }
 }
 
+TEST(Channel, AParticlePressedAgainstARoundedEdgeDoesNotCutThroughIt) {
+  // Along the floor, over its rounded end and down, drawn towards it all the way.
+  const auto edge =
+      std::make_shared<Polyline>(std::vector<Point>{{-1, 0}, {0, 0}, {0, -1}}, std::vector<double>{0.1});
+  FreeParticle<2> particle{{-0.2, 0}, {1, 0}, 2, {Wall<2>("edge", edge, ContactLaw{}, Vec<2>::Zero(), 1)}};
+  while (particle.x[0][1] > -0.2) {
+    const RigidShape::Gap gap = edge->gap(in_space(particle.x[0]));
+    ASSERT_GT(gap.distance, -1e-12);
+    ASSERT_LT(gap.distance, 1e-4);
+    ASSERT_LT(particle.time, 1);
+    particle.step(1e-3, -40 * gap.normal.head<2>());
+  }
+}
+
 TEST(Channel, AParticleGlidesThroughTheDieAlongItsRoundedCorners) {
   const auto [left, right] = die();
   const double speed = 1, radius = 0.0015;
