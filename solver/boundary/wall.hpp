@@ -211,7 +211,7 @@ class Wall {
     if (!thrown_back && here.distance > 0 && here.distance * here.distance > squared_travel)
       return false;
     // A chord along a convex tool dips into it by far less than its length; this much leads out again.
-    constexpr double chord = 0.01;
+    constexpr double chord = 0.05;
     const double lowest = std::min(here.distance + chord * std::sqrt(squared_travel), 0.0);
     bool changed = false;
     constexpr int sides = 3;
