@@ -1,5 +1,8 @@
 /// Cost of building the operators and of a step: nanoseconds per particle, on one thread and on all.
 #include "core/parallel.hpp"
+#include "solver/boundary/plane.hpp"
+#include "solver/boundary/polyline.hpp"
+#include "solver/boundary/wall.hpp"
 #include "solver/operators/gradient.hpp"
 #include "solver/operators/laplacian.hpp"
 #include "solver/operators/support.hpp"
@@ -62,6 +65,33 @@ void step(benchmark::State& state, const SceneSpec& base) {
   state.counters["neighbours"] = neighbours;
 }
 
+/// One wall's look at a plane body of range(0) particles across, of which one side's are in touch.
+void contact(benchmark::State& state, const std::shared_ptr<const RigidShape>& shape) {
+  set_threads(1);
+  const auto across = static_cast<int>(state.range(0));
+  const auto cloud = test::box_lattice(across, 7 * across, 1, Vec3(0.008, 0.056, 0));
+  std::vector<Vec<2>> x, p(cloud.X.size(), Vec<2>(-10, -2800)), impulse(cloud.X.size(), Vec<2>::Zero());
+  for (const Vec3& X : cloud.X)
+    x.push_back(X.head<2>());
+  const std::vector<Vec<2>> p_n = p;
+  Wall<2> wall("wall", shape, {}, Vec<2>::Zero(), x.size());
+  for (auto _ : state) {
+    p = p_n;
+    benchmark::DoNotOptimize(wall.limit(x, p, 2800, 0, 1e-8, 1, impulse));
+  }
+  state.counters["ns/particle"] =
+      benchmark::Counter(static_cast<double>(cloud.size()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+void contact_with_plane(benchmark::State& state) {
+  contact(state, std::make_shared<Plane>(Vec3::Zero(), Vec3::UnitX()));
+}
+void contact_with_channel(benchmark::State& state) {
+  contact(state,
+          channel({{0.004, 0.056}, {0.004, -0.004}, {0.028, -0.004}, {0.028, -0.048}}, 0.008, 0.0015, 0.001)
+              .right);
+}
+
 void plastic_step(benchmark::State& state) {
   step(state, copper_bar());
 }
@@ -72,5 +102,7 @@ void elastic_step(benchmark::State& state) {
 } // namespace
 
 BENCHMARK(operator_build)->ArgsProduct({{20, 46}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(contact_with_plane)->Arg(12)->Arg(120);
+BENCHMARK(contact_with_channel)->Arg(12)->Arg(120);
 BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();

@@ -2,11 +2,6 @@
 
 #include "core/error.hpp"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,17 +13,7 @@
 namespace tessera::preprocess {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Triangle = Kernel::Triangle_3;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-
-/// A triangle with the normals of its face, of the edges (k, k + 1) and of its vertices.
-struct Facet {
-  std::array<Vec3, 3> vertices;
-  Vec3 face;
-  std::array<Vec3, 3> edges, corners;
-};
+using Facet = RigidSurface::Facet;
 
 struct Nearest {
   Vec3 point, normal;
@@ -94,32 +79,24 @@ std::vector<Facet> facets_of(const Domain& domain, const std::string& where) {
   return facets;
 }
 
-} // namespace
-
-struct RigidSurface::Tree {
-  std::vector<Facet> facets;
-  std::vector<Triangle> triangles;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree;
-};
-
-RigidSurface::RigidSurface(const Domain& domain, const std::string& where) {
-  auto built = std::make_unique<Tree>();
-  built->facets = facets_of(domain, where);
-  const auto point = [](const Vec3& x) { return Point(x[0], x[1], x[2]); };
-  for (const Facet& f : built->facets)
-    built->triangles.emplace_back(point(f.vertices[0]), point(f.vertices[1]), point(f.vertices[2]));
-  built->tree.insert(built->triangles.begin(), built->triangles.end());
-  // Now and not at the first query: those must not change anything.
-  built->tree.build();
-  built->tree.accelerate_distance_queries();
-  tree_ = std::move(built);
+std::vector<Box> boxes_of(const std::vector<Facet>& facets) {
+  std::vector<Box> boxes;
+  for (const Facet& f : facets) {
+    const auto& v = f.vertices;
+    boxes.push_back({v[0].cwiseMin(v[1]).cwiseMin(v[2]), v[0].cwiseMax(v[1]).cwiseMax(v[2])});
+  }
+  return boxes;
 }
 
-RigidSurface::~RigidSurface() = default;
+} // namespace
+
+RigidSurface::RigidSurface(const Domain& domain, const std::string& where)
+    : facets_(facets_of(domain, where)), tree_(boxes_of(facets_)) {}
 
 RigidShape::Gap RigidSurface::gap(const Vec3& x) const {
-  const auto found = tree_->tree.closest_point_and_primitive({x[0], x[1], x[2]});
-  const auto& facet = tree_->facets[static_cast<std::size_t>(found.second - tree_->triangles.begin())];
+  const auto found =
+      tree_.nearest(x, [&](std::int32_t i) { return (x - nearest_on(facets_[i], x).point).squaredNorm(); });
+  const Facet& facet = facets_[found.first];
   const Nearest nearest = nearest_on(facet, x);
   const Vec3 way = x - nearest.point;
   const double side = way.dot(nearest.normal) < 0 ? -1 : 1, distance = way.norm();

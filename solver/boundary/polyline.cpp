@@ -25,8 +25,10 @@ double angle_between(const Point& before, const Point& after) {
   return std::atan2(cross(before, after), before.dot(after));
 }
 
+/// Without what round-off leaves of a zero.
 std::string text(const Point& x) {
-  return fmt::format("({:g}, {:g})", x[0], x[1]);
+  const auto clean = [&](double c) { return std::abs(c) < 1e-12 * x.norm() ? 0.0 : c; };
+  return fmt::format("({:g}, {:g})", clean(x[0]), clean(x[1]));
 }
 
 /// Unit vectors along the pieces. InputError where they do not make a line.

@@ -80,11 +80,13 @@ class Wall {
     return shape_->gap(in_space(x - time * velocity_)).distance;
   }
 
-  /// Reflection, on the momenta of a stage of the time integration at `time` (s). A particle that would pass
-  /// the surface within dt gets the normal velocity that just reaches it (Moreau's condition at velocity
-  /// level); one behind it gets no deeper. Velocities are relative to the tool's. In the last stage the
-  /// restitution throws it back, with that times the velocity it came with in this step. The tangential
-  /// momentum falls by at most the friction times the normal impulse, to zero and not beyond.
+  /// Reflection, on the momenta of a stage of the time integration. These take the particle from x at `time`
+  /// (s) to where it will be dt later: after the last stage in the next step, in the first of Heun's method
+  /// from (x^n + x*) / 2 in half a step to x^(n+1), so that no position is ever behind the surface. One that
+  /// would pass the surface within dt gets the normal velocity that just reaches it (Moreau's condition at
+  /// velocity level); one that is behind it already gets no deeper. Velocities are relative to the tool's. In
+  /// the last stage the restitution throws it back, with that times the velocity it came with in this step.
+  /// The tangential momentum falls by at most the friction times the normal impulse, to zero and not beyond.
   ///
   /// `share` is the part of a change in this stage that reaches the end of the step, 1 in the last; that part
   /// is added to `impulse`. Returns how many particles were changed.
@@ -93,9 +95,9 @@ class Wall {
     if (law_.method != ContactMethod::reflection)
       return 0;
     const Moment now{density, dt, share, time * velocity_, density * velocity_};
-    const auto n = static_cast<std::int64_t>(x.size());
     const auto each = [&](auto limited) {
-      return sum(n, std::int64_t{0}, [&](std::int64_t a) -> std::int64_t { return limited(a) ? 1 : 0; });
+      return sum(static_cast<std::int64_t>(x.size()), std::int64_t{0},
+                 [&](std::int64_t a) -> std::int64_t { return limited(a) ? 1 : 0; });
     };
     if (plane_ != nullptr) {
       const Vec<D> up = plane_->normal().template head<D>();
@@ -208,7 +210,9 @@ class Wall {
     const RigidShape::Gap here = gap_of(a, at);
     if (!thrown_back && here.distance > 0 && here.distance * here.distance > squared_travel)
       return false;
-    const double lowest = std::min(here.distance, 0.0);
+    // A chord along a convex tool dips into it by far less than its length; this much leads out again.
+    constexpr double chord = 0.05;
+    const double lowest = std::min(here.distance + chord * std::sqrt(squared_travel), 0.0);
     bool changed = false;
     constexpr int sides = 3;
     for (int side = 0; side < sides; ++side) {

@@ -46,11 +46,13 @@ class Step {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
     if (works_)
       external_impulse_.assign(body.V.size(), Vec<D>::Zero());
+    if (!outside_.walls.empty())
+      place_ = body.U.x;
     if (!outside_.loads.empty())
       force_.assign(body.V.size(), Vec<D>::Zero());
     outside_.held.apply(body.U.p, body.density, 0, 0, external_impulse_);
     before_ = body.U;
-    hold(body, 0, dt, 1.0);
+    hold(body, body.U.x, 0, dt);
     account(body);
   }
 
@@ -64,18 +66,18 @@ class Step {
       conserve(body, U.x, dt);
       load(body, U.x, time, dt);
       advance(U, dt, R);
-      hold(body, time + dt, dt, 0.5);
+      hold_middle(body, time, dt);
       body.stresses();
 
       body.rates();
       if (pushes_)
-        x_star_ = U.x;
+        place_ = U.x;
       average(U.x, before_.x, dt, R.x);
       conserve(body, U.x, dt);
-      load(body, x_star_, time + dt, dt);
+      load(body, place_, time + dt, dt);
       average(U.p, before_.p, dt, R.p);
       average_strains(U, before_, dt, R);
-      hold(body, time + dt, dt, 1.0);
+      hold(body, U.x, time + dt, dt);
       body.commit();
     } catch (const Breakdown&) {
       body.U = before_;
@@ -112,10 +114,19 @@ class Step {
       wall.push(x, body.U.p, body.density, time, dt, body.R.p, external_impulse_);
   }
 
-  /// Contact and essential conditions on the momenta of a stage; `share` of a change reaches U^(n+1).
-  void hold(Body& body, double time, double dt, double share) {
-    limit_by<D>(outside_.walls, body.U.x, body.U.p, body.density, time, dt, share, external_impulse_);
-    outside_.held.apply(body.U.p, body.density, time, share, external_impulse_);
+  /// The first stage's momenta move a particle from the middle of x^n and x* to x^(n+1), in dt/2.
+  void hold_middle(Body& body, double time, double dt) {
+    if (!outside_.walls.empty())
+      for_each(body.size(), [&](std::int64_t a) { place_[a] = 0.5 * (before_.x[a] + body.U.x[a]); });
+    limit_by<D>(outside_.walls, place_, body.U.p, body.density, time + 0.5 * dt, 0.5 * dt, 0.5,
+                external_impulse_);
+    outside_.held.apply(body.U.p, body.density, time + dt, 0.5, external_impulse_);
+  }
+
+  /// Contact of particles at x, and essential conditions, on the momenta of the last stage.
+  void hold(Body& body, const std::vector<Vec<D>>& x, double time, double dt) {
+    limit_by<D>(outside_.walls, x, body.U.p, body.density, time, dt, 1.0, external_impulse_);
+    outside_.held.apply(body.U.p, body.density, time, 1.0, external_impulse_);
   }
 
   /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
@@ -138,7 +149,7 @@ class Step {
   bool pushes_ = false; ///< a wall is a penalty
   typename Body::Formulation before_;
   std::vector<Vec<D>> force_;            ///< of the loads, N/m^3
-  std::vector<Vec<D>> x_star_;           ///< positions of the second stage, for penalties
+  std::vector<Vec<D>> place_;            ///< where a stage's contact is judged
   std::vector<Vec<D>> numerical_;        ///< impulse of dissipation and projection in this step, kg/(m^2 s)
   std::vector<Vec<D>> external_impulse_; ///< of walls, loads and moving boundaries in this step, kg/(m^2 s)
   double dissipated_ = 0;

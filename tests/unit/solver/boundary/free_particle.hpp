@@ -28,7 +28,12 @@ class FreeParticle {
       const Vec<D> x_next = x[0] + dt / density * p[0], p_next = p[0] + dt * R[0];
       x[0] = last ? Vec<D>((x_n[0] + x_next) / 2) : x_next;
       p[0] = last ? Vec<D>((p_n[0] + p_next) / 2) : p_next;
-      limit_by<D>(walls, x, p, density, time + dt, dt, last ? 1 : 0.5, impulse);
+      if (last) {
+        limit_by<D>(walls, x, p, density, time + dt, dt, 1, impulse);
+      } else {
+        const std::vector<Vec<D>> middle = {(x_n[0] + x[0]) / 2};
+        limit_by<D>(walls, middle, p, density, time + dt / 2, dt / 2, 0.5, impulse);
+      }
     }
     time += dt;
   }

@@ -216,6 +216,14 @@ TEST(Channel, MayTurnByAnyAngle) {
 }
 
 TEST(Channel, RefusesWhatDoesNotFit) {
+  try {
+    channel(die_path, 0.008, 0.03, 0.001);
+    FAIL();
+  } catch (const InputError& e) { // what round-off leaves of the corner's zero is not shown
+    EXPECT_NE(std::string(e.what()).find("the fillet of 0.03 m at (0.032, 0) does not fit"),
+              std::string::npos)
+        << e.what();
+  }
   EXPECT_THROW(channel({{0, 0}}, 0.1, 0, 0), InputError);
   EXPECT_THROW(channel({{0, 0}, {1, 0}}, 0, 0, 0), InputError);
   EXPECT_THROW(channel({{0, 0}, {1, 0}, {1, 0}}, 0.1, 0, 0), InputError);
@@ -252,6 +260,20 @@ TEST(Channel, AParticleDrivenIntoACornerStopsThereWhateverWallIsFirst) {
         EXPECT_LT(particle.velocity().norm(), dt * pull.norm()) << tools.size();
         EXPECT_LT((particle.x[0] - Vec<2>(-0.5, -0.5)).norm(), dt * dt * pull.norm()) << tools.size();
       }
+}
+
+TEST(Channel, AParticlePressedAgainstARoundedEdgeDoesNotCutThroughIt) {
+  // Along the floor, over its rounded end and down, drawn towards it all the way.
+  const auto edge =
+      std::make_shared<Polyline>(std::vector<Point>{{-1, 0}, {0, 0}, {0, -1}}, std::vector<double>{0.1});
+  FreeParticle<2> particle{{-0.2, 0}, {1, 0}, 2, {Wall<2>("edge", edge, ContactLaw{}, Vec<2>::Zero(), 1)}};
+  while (particle.x[0][1] > -0.2) {
+    const RigidShape::Gap gap = edge->gap(in_space(particle.x[0]));
+    ASSERT_GT(gap.distance, -1e-12);
+    ASSERT_LT(gap.distance, 1e-4);
+    ASSERT_LT(particle.time, 1);
+    particle.step(1e-3, -40 * gap.normal.head<2>());
+  }
 }
 
 TEST(Channel, AParticleGlidesThroughTheDieAlongItsRoundedCorners) {

@@ -86,6 +86,16 @@ TEST(Wall, ThrowsAFreeParticleBackWithItsRestitutionThroughWholeSteps) {
     }
 }
 
+TEST(Wall, NoStepLeavesAPositionBehindItEvenWhereStepsGrow) {
+  FreeParticle<3> particle{{0, 0, 0.5}, {0, 0, -1}, density, {floor_with(restitution(0))}};
+  particle.start(0.05);
+  for (int i = 0; i < 40; ++i) {
+    particle.step(i % 2 == 0 ? 0.05 : 0.1, Vec3(0, 0, i < 10 ? -10 : -30 * (i % 3)));
+    ASSERT_GE(particle.x[0][2], -1e-16) << i;
+  }
+  EXPECT_NEAR(particle.x[0][2], 0, 1e-16);
+}
+
 TEST(Wall, ASlidingBlockLosesMuGAndStops) {
   const double mu = 0.3, g = 10;
   FreeParticle<3> block{{0, 0, 0}, {1, 2, 0}, density, {floor_with({ContactMethod::reflection, mu, 0, 0})}};
