@@ -1,0 +1,148 @@
+/// What the formulations make of the same scene, and how they converge to a closed form.
+#include "solver/scene/scene.hpp"
+#include "tests/support/clouds.hpp"
+
+#include "core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+using namespace tessera;
+using namespace tessera::solver;
+
+namespace {
+
+using Kind = BoundaryCondition::Kind;
+
+/// A cube that swings in its first mode of pressure waves, (5.1), at a quarter of its period.
+SceneSpec swinging_cube() {
+  SceneSpec scene;
+  scene.material = {"linear_elastic", 1100, 17e6, 0.3, std::nullopt};
+  const ElasticConstants elastic = ElasticConstants::from(17e6, 0.3);
+  const double omega = std::sqrt(3.0) / 2 * M_PI * std::sqrt(elastic.pressure_wave_modulus() / 1100);
+  const auto mode = [](const std::string& factor) {
+    const std::string x = "(_pi*X/2)", y = "(_pi*Y/2)", z = "(_pi*Z/2)";
+    return Formulas{Expression(factor + "*sin" + x + "*cos" + y + "*cos" + z),
+                    Expression(factor + "*cos" + x + "*sin" + y + "*cos" + z),
+                    Expression(factor + "*cos" + x + "*cos" + y + "*sin" + z)};
+  };
+  const std::string w = std::to_string(omega);
+  scene.initial.push_back({"all", {}, mode("5e-4")});
+  scene.exact = ExactSolution{mode("-5e-4*" + w + "*sin(" + w + "*t)"),
+                              Expression(std::to_string(5e-4 * 1.5 * M_PI * elastic.kappa) + "*cos(" + w +
+                                         "*t)*cos(_pi*X/2)*cos(_pi*Y/2)*cos(_pi*Z/2)")};
+  for (const char* axis : {"x", "y", "z"}) {
+    scene.boundary.push_back({Kind::sliding, std::string(axis) + "_min"});
+    scene.boundary.push_back({Kind::skew_symmetric, std::string(axis) + "_max"});
+  }
+  scene.end_time = 0.004;
+  return scene;
+}
+
+ErrorNorms errors(const SceneSpec& scene, int n) {
+  return *run(scene, test::box_lattice(n, n, n, Vec3(1, 1, 1)), {}, Progress::silent()).error;
+}
+
+} // namespace
+
+TEST(SwingingCube, TheSchemeIsOfFirstOrderOnLattices) {
+  // An independent program gave 13.5 and 7.8 per cent.
+  const double coarse = errors(swinging_cube(), 9).l2_velocity_relative,
+               fine = errors(swinging_cube(), 17).l2_velocity_relative;
+  EXPECT_NEAR(coarse, 0.136, 0.002);
+  EXPECT_NEAR(fine, 0.0803, 0.002);
+}
+
+TEST(SwingingCube, TheFormulationsAgreeWhereStrainsAreSmall) {
+  SceneSpec scene = swinging_cube();
+  scene.formulation = "pF";
+  const ErrorNorms pF = errors(scene, 9);
+  for (const char* formulation : {"pFJ", "pFHJ"}) {
+    scene.formulation = formulation;
+    const ErrorNorms other = errors(scene, 9);
+    EXPECT_NEAR(other.l2_velocity / pF.l2_velocity, 1, 0.002) << formulation;
+    EXPECT_NEAR(other.l1_pressure / pF.l1_pressure, 1, 0.002) << formulation;
+  }
+}
+
+TEST(Displacement, IsTheFibreMapsFormulationWithoutDissipation) {
+  SceneSpec scene;
+  scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
+  scene.initial.push_back({"all", Formulas{Expression("0"), Expression("8*Z"), Expression("0")}});
+  scene.boundary.push_back({Kind::fixed, "base"});
+  scene.probes = {{"tip", "uy", "mean", "top"}};
+  scene.end_time = 0.02;
+  const auto cloud = test::box_lattice(4, 4, 7, Vec3(0.5, 0.5, 1));
+  scene.formulation = "displacement";
+  const Summary x = run(scene, cloud, {}, Progress::silent());
+  scene.formulation = "pF";
+  scene.jst4 = Kappa4::constant(0);
+  const Summary F = run(scene, cloud, {}, Progress::silent());
+  EXPECT_EQ(x.formulation, "displacement");
+  EXPECT_GT(x.probes[0].second, 0.05);
+  EXPECT_NEAR(x.probes[0].second / F.probes[0].second, 1, 1e-10);
+  EXPECT_EQ(x.steps, F.steps);
+  EXPECT_LT(x.bytes_per_particle, F.bytes_per_particle);
+}
+
+TEST(Involution, KeepsTheVolumeMapOfABendingColumnThatDissipationDrivesAway) {
+  SceneSpec scene;
+  scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
+  scene.formulation = "pFJ";
+  scene.initial.push_back(
+      {"all", Formulas{Expression("-105*sin(_pi*Z/6)*(Y-0.5)"), Expression("105*sin(_pi*Z/6)*(X-0.5)"),
+                       Expression("0")}});
+  scene.boundary.push_back({Kind::fixed, "base"});
+  scene.end_time = 0.06;
+  const auto cloud = test::box_lattice(6, 6, 16, Vec3(1, 1, 3));
+  scene.involution = 0.2;
+  const Summary tied = run(scene, cloud, {}, Progress::silent());
+  EXPECT_GT(tied.extremes.jacobian, 0.85);
+  scene.involution = 0.0;
+  double smallest = 0;
+  try {
+    smallest = run(scene, cloud, {}, Progress::silent()).extremes.jacobian;
+  } catch (const RunError&) {
+  }
+  EXPECT_LT(smallest, tied.extremes.jacobian - 0.02);
+}
+
+TEST(Loads, AFreeBodyFallsWithoutStrain) {
+  SceneSpec scene;
+  scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
+  scene.boundary.push_back({Kind::body_force, "all", {true, true, true},
+                            {Expression("0"), Expression("0"), Expression("-9.81")}});
+  scene.probes = {{"lowest", "uz", "min", "all"}, {"highest", "uz", "max", "all"}};
+  scene.end_time = 0.1;
+  const Summary summary = run(scene, test::box_lattice(4, 5, 4, Vec3(1, 1, 1)), {}, Progress::silent());
+  for (const auto& [name, fall] : summary.probes)
+    EXPECT_NEAR(fall / (-0.5 * 9.81 * 0.01), 1, 1e-12) << name;
+  EXPECT_LT(summary.energy.internal, 1e-12 * summary.energy.kinetic);
+  EXPECT_NEAR(summary.energy.external / summary.energy.kinetic, 1, 1e-12);
+  EXPECT_LT(summary.energy.balance_error, 1e-12);
+}
+
+TEST(Loads, ASuddenTractionStretchesABarTwiceAsFarAsASlowOne) {
+  // A bar without Poisson's ratio: the tip goes to 2 t L / E and back in 4 L / c.
+  const double L = 1, young = 1e7, density = 1000, traction = 1e4, c = std::sqrt(young / density);
+  SceneSpec scene;
+  scene.material = {"linear_elastic", density, young, 0, std::nullopt};
+  scene.boundary.push_back({Kind::fixed, "base"});
+  scene.boundary.push_back({Kind::traction, "top", {true, true, true},
+                            {Expression("0"), Expression(std::to_string(traction)), Expression("0")}});
+  scene.probes = {{"tip", "uy", "mean", "top"}};
+  scene.end_time = 2 * L / c;
+  const auto tip = [&](int layers) {
+    const auto cloud = test::box_lattice(4, layers, 1, Vec3(3 * L / (layers - 1), L, 0));
+    const Summary summary = run(scene, cloud, {}, Progress::silent());
+    EXPECT_LT(summary.energy.balance_error, 2e-3);
+    EXPECT_NEAR(summary.energy.external,
+                traction * 3 * L / (layers - 1) * summary.probes[0].second, 1e-3 * summary.energy.external);
+    return summary.probes[0].second / (2 * traction * L / young);
+  };
+  const double coarse = std::abs(tip(21) - 1), fine = std::abs(tip(41) - 1);
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_LT(fine, 0.7 * coarse);
+}
