@@ -64,7 +64,7 @@ class Reporter {
   void summarise(Summary& summary) {
     summary.extremes = extremes_;
     summary.energy = energy_;
-    summary.energy.balance_error = worst_balance_;
+    summary.energy.balance_error = largest_ > 0 ? worst_imbalance_ / largest_ : 0;
     arrays_.fill(assembly_.body, cloud_);
     arrays_.extent(cloud_, summary.extent_min, summary.extent_max);
     const Momenta now = momenta(assembly_.body);
@@ -106,8 +106,9 @@ class Reporter {
     last_row_ = step;
     energy_ = energies(assembly_.body, assembly_.step);
     largest_ = std::max(largest_, energy_.kinetic + energy_.internal + energy_.plastic);
-    energy_.balance_error = largest_ > 0 ? std::abs(total(energy_) - total_start_) / largest_ : 0;
-    worst_balance_ = std::max(worst_balance_, energy_.balance_error);
+    const double imbalance = std::abs(total(energy_) - total_start_);
+    energy_.balance_error = largest_ > 0 ? imbalance / largest_ : 0;
+    worst_imbalance_ = std::max(worst_imbalance_, imbalance);
     arrays_.fill(assembly_.body, cloud_);
     arrays_.widen(extremes_);
     if (!outputs_.history_row)
@@ -165,7 +166,7 @@ class Reporter {
   double linear_scale_ = 0, angular_scale_ = 0;
   double total_start_ = 0, largest_ = 0;
   Energies energy_;
-  double worst_balance_ = 0;
+  double worst_imbalance_ = 0; ///< J
   Extremes extremes_;
   double history_due_ = next(0, scene_.history_rows), frame_due_ = next(0, scene_.frames);
   std::int64_t last_row_ = -1, last_frame_ = -1;
