@@ -1,0 +1,3 @@
+"""Scenes of the thesis' section 5.1: hyperelastic bodies."""
+
+SCENES = {}
