@@ -60,7 +60,7 @@ def read_array(path, name):
     raw = bytearray()
     for k, packed in enumerate(sizes):
         size = last if k == blocks - 1 and last else whole
-        raw += lz4_block(content[at : at + packed], size)  # what does not shrink is packed all the same
+        raw += lz4_block(content[at : at + packed], size)  # also where packing made it larger
         at += packed
     values = array.array(TYPES[kind])
     values.frombytes(bytes(raw))
