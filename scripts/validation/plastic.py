@@ -1,0 +1,214 @@
+"""Scenes of the thesis' sections 5.2 and 5.3: plastic bodies, and irregular clouds."""
+
+import csv
+import math
+
+import common
+import vtu
+
+# The extrusion's lattices: particles, spacing (m), and of the document's table 5.4 the largest plastic strain at 35 ms and
+# the plastic dissipation of one step, summed without volumes (J/m^3).
+LATTICES = [(88, 0.0026667, 1.410, 20497.80), (216, 0.0016, 2.028, 24692.61),
+            (400, 0.00114286, 2.133, 28049.84), (640, 0.00088889, 2.197, 28186.20)]
+BILLET_AREA = 0.008 * 0.056
+
+
+def plastic_power(run, time, window=5e-4):
+    """W per metre of thickness, mean over a window that ends at `time`."""
+    return (run.at(time, "plastic_J") - run.at(time - window, "plastic_J")) / window
+
+
+def document_dissipation(run, particles, time):
+    """(5.8b) at a time as it is written: the plastic work per volume of one step, summed over the particles without
+    their volumes. All have the same."""
+    step = run.at(time, "dt_s")
+    return plastic_power(run, time) * step * particles / BILLET_AREA
+
+
+def punch_force(run, time, window=5e-4):
+    """N per metre of thickness: the work done on the billet, mean over a window; the punch goes with 1 m/s. Friction's
+    work is part of it."""
+    return (run.at(time, "external_J") - run.at(time - window, "external_J")) / window
+
+
+def highest_punch_force(run, until, window=5e-4):
+    return max(punch_force(run, 0.008 + window + i * window, window) for i in range(int((until - 0.0085) / window)))
+
+
+def section(run, time, points, spacing):
+    """Plastic strain at points of the deformed billet, a mean over the particles nearby (Wendland's kernel)."""
+    frame = run.frame_near(time)
+    places, strain = vtu.read_points(frame), vtu.read_array(frame, "PlasticStrain")
+    support = 2.2 * spacing
+    values = []
+    for x, y in points:
+        total = weights = 0.0
+        for place, value in zip(places, strain):
+            q = math.hypot(place[0] - x, place[1] - y) / support
+            if q < 1:
+                weight = (1 - q) ** 4 * (1 + 4 * q)
+                total, weights = total + weight * value, weights + weight
+        values.append(total / weights if weights else None)
+    return values
+
+
+def unfilled(run, time, spacing, corner, cells=80):
+    """Area (m^2) of the second turn's square, 8 x 8 mm inside `corner`, that is farther than 0.75 spacings from any
+    particle and above the line from corner to corner: the void on the outside of the turn."""
+    places = vtu.read_points(run.frame_near(time))
+    side = 0.008 / cells
+    count = 0
+    for i in range(cells):
+        for j in range(cells):
+            x, y = corner[0] - (i + 0.5) * side, corner[1] - (j + 0.5) * side
+            if i + j < cells and all(math.hypot(p[0] - x, p[1] - y) > 0.75 * spacing for p in places):
+                count += 1
+    return count * side * side
+
+
+def ecae(bench):
+    """5.2.2: two turns of 90 degrees."""
+    case, short_channel = "ecae/case.toml", "ecae/short_channel.toml"
+    if bench.short:
+        run = bench.run(case, "short", end_time=0.012, frames=2, rows=400, particles__spacing=LATTICES[0][1])
+        bench.require(run.good, "88 particles enter the first turn")
+        bench.require_near("largest plastic strain at 12 ms", run["probes.plastic_strain"], 1.109, 0.02)
+        bench.require_near("mean plastic strain at 12 ms", run["probes.mean_plastic_strain"], 0.1088, 0.02)
+        bench.require_below("energy balance error", run["energy.balance_error"], 1e-4)
+        return
+
+    convergence = bench.grid("ecae_convergence", "particles", "subvolumes", "document: largest plastic strain at 35 ms",
+                             "ours", "difference", "document: W(p) of one step, J/m³", "ours, J/m³",
+                             "ours, plastic power, W/m", "punch at 35 ms, N/m", "balance error", "steps to 40 ms")
+    sections = bench.grid("ecae_sections", "across the channel, mm", *(f"{0.4 + 0.8 * i:.1f}" for i in range(10)))
+    for particles, spacing, strain, dissipation in LATTICES:
+        for subvolumes in ("uniform", "voronoi"):
+            run = bench.run(case, f"{subvolumes}_{particles}", frames=40, rows=2000, particles__spacing=spacing,
+                            particles__subvolumes=f'"{subvolumes}"')
+            if not run.good:
+                convergence.row(particles, subvolumes, strain, run.error)
+                continue
+            ours = run.at(0.035, "plastic_strain")
+            convergence.row(particles, subvolumes, strain, ours, f"{100 * (ours / strain - 1):+.1f} %", dissipation,
+                            document_dissipation(run, particles, 0.035), plastic_power(run, 0.035),
+                            punch_force(run, 0.035), run.history["balance_error"][-1], run["steps"])
+            middle = section(run, 0.04, [(0.016, -0.0076 + 0.0008 * i) for i in range(10)], spacing)
+            outlet = section(run, 0.04, [(0.0244 + 0.0008 * i, -0.013) for i in range(10)], spacing)
+            sections.row(f"{particles}, {subvolumes}: middle of the middle channel, upwards", *middle)
+            sections.row(f"{particles}, {subvolumes}: 5 mm into the exit, outwards", *outlet)
+
+    variants = bench.grid("ecae_variants", "216 particles, exact cells", "largest plastic strain at 35 ms",
+                          "punch at 20 ms, N/m", "highest punch force, N/m")
+    spacing = LATTICES[1][1]
+    for name, keys in {"frictionless": {}, "friction 0.05": {"wall__0__friction": 0.05},
+                       "penalty contact": {"wall__0__method": '"penalty"'}}.items():
+        run = bench.run(case, name.replace(" ", "_"), frames=40, rows=2000, particles__spacing=spacing, **keys)
+        if run.good:
+            variants.row(name, run.at(0.035, "plastic_strain"), punch_force(run, 0.02), highest_punch_force(run, 0.04))
+    void = bench.grid("ecae_void", "channel of 16 mm, particles", "unfilled outside of the second turn at 27 ms, mm²",
+                      "largest plastic strain")
+    for particles, spacing, *_ in LATTICES:
+        run = bench.run(short_channel, f"short_channel_{particles}", frames=27, rows=2000, particles__spacing=spacing)
+        if run.good:
+            void.row(particles, 1e6 * unfilled(run, 0.027, spacing, (0.024, 0)), run["probes.plastic_strain"])
+
+
+def taylor_history(bench, run, name):
+    table = bench.grid(name, "time, µs", "reference: radius, mm", "ours", "reference: shortening, mm", "ours")
+    for time, radius, length in taylor_reference():
+        if round(1e6 * time) % 10 == 0 and time > 0:
+            table.row(round(1e6 * time), 1e3 * radius, 1e3 * run.at(time, "foot_radius_m"),
+                      32.4 - 1e3 * length, 32 - 1e3 * run.at(time, "length_m"))
+
+
+def taylor_reference():
+    """(time, radius, length) of the converged bar, s and m."""
+    with (common.ROOT / "docs/data/taylor_reference.csv").open() as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return [(1e-6 * float(row["time_us"]), 1e-3 * float(row["radius_mm"]), 1e-3 * float(row["length_mm"])) for row in rows]
+
+
+def converged_shortening(time):
+    """Of the converged bar, over its length."""
+    rows = taylor_reference()
+    _, _, length = min(rows, key=lambda row: abs(row[0] - time))
+    return 1 - length / rows[0][2]
+
+
+TAYLOR_REFINED = (0.00106667, 0.0008, 0.00064, 0.00053333, 0.0004)
+
+
+def taylor_bar(bench):
+    """5.2.1: the lattice of the thesis, coarser and finer ones."""
+    case = "taylor_bar/case.toml"
+    if bench.short:
+        run = bench.run(case, "short", end_time=30e-6, rows=200, particles__spacing=0.00106667)
+        bench.require(run.good, "a coarse bar strikes the wall")
+        bench.require_near("its shortening over its length at 30 us, by the converged bar's",
+                           1 - run["probes.length_m"] / 0.032, converged_shortening(30e-6), 0.02)
+        bench.require_near("radius of its foot, m", run["probes.foot_radius_m"], 5.85e-3, 0.01)
+        return
+    table = bench.grid("taylor_lattice", "spacing, mm", "particles", "radius of the outermost particle, mm",
+                       "and half a spacing, mm", "length, mm", "largest plastic strain", "steps", "smallest step, s")
+    for spacing in TAYLOR_REFINED:
+        run = bench.run(case, f"lattice_{1e3 * spacing:.2f}", rows=400, particles__spacing=spacing)
+        table.row(f"{1e3 * spacing:.2f}", run["particles"], 1e3 * run["probes.radius_m"],
+                  1e3 * (run["probes.radius_m"] + 0.5 * spacing), 1e3 * run["probes.length_m"],
+                  run["probes.plastic_strain"], run["steps"], min(run.history["dt_s"][1:]))
+        if spacing == 0.00064:
+            figures = bench.figures("taylor_bar")
+            figures.compare("radius of the outermost particle, mm", 1e3 * run["probes.radius_m"], 6.66, 6.91)
+            figures.compare("radius and the particle's own 0.32, mm", 1e3 * run["probes.radius_m"] + 0.32, 6.98)
+            taylor_history(bench, run, "taylor_history")
+
+
+def taylor_bar_unstructured(bench):
+    """5.3.2: two-pass clouds."""
+    case = "taylor_bar/voronoi.toml"
+    if bench.short:
+        run = bench.run(case, "short", end_time=20e-6, rows=100, particles__count=373)
+        bench.require(run.good, "373 irregular particles strike the wall")
+        bench.require_near("their shortening over their length at 20 us, by the converged bar's",
+                           1 - run["probes.length_m"] / 0.032, converged_shortening(20e-6), 0.04)
+        return
+    table = bench.grid("taylor_unstructured", "particles", "subvolumes", "seed", "radius of the outermost particle, mm",
+                       "length, mm", "largest plastic strain", "dissipated of 237 J")
+    for count in (373, 721, 2077):
+        for subvolumes in ("voronoi", "uniform"):
+            for seed in (1, 2, 3):
+                run = bench.run(case, f"{count}_{subvolumes}_{seed}", rows=400, particles__count=count,
+                                particles__seed=seed, particles__subvolumes=f'"{subvolumes}"')
+                if not run.good:
+                    table.row(count, subvolumes, seed, run.error)
+                    continue
+                table.row(count, subvolumes, seed, 1e3 * run["probes.radius_m"], 1e3 * run["probes.length_m"],
+                          run["probes.plastic_strain"], run.history["dissipated_J"][-1])
+
+
+def tensile_cube_unstructured(bench):
+    """5.3.1: the cube torn upwards, lattice and two-pass clouds."""
+    probes = ['{name = "corner_ux", quantity = "ux", reduce = "mean", on = "corner"}',
+              '{name = "corner_uz", quantity = "uz", reduce = "mean", on = "corner"}']
+    if bench.short:
+        run = bench.run("tensile_cube/voronoi.toml", "short", end_time=0.01, rows=200)
+        bench.require(run.good, "irregular particles are torn upwards")
+        bench.require_below("energy balance error", run["energy.balance_error"], 2e-3)
+        return
+    runs = {"lattice 8³": bench.run("tensile_cube/case.toml", "lattice", rows=500, probes=probes,
+                                    set='[{name = "corner", nearest = [1, 1, 1]}]')}
+    for seed in (1, 2, 3):
+        for subvolumes in ("voronoi", "uniform"):
+            runs[f"two-pass, {subvolumes}, seed {seed}"] = bench.run(
+                "tensile_cube/voronoi.toml", f"{subvolumes}_{seed}", rows=500, probes=probes, particles__seed=seed,
+                particles__subvolumes=f'"{subvolumes}"')
+    table = bench.grid("tensile_unstructured", "cloud", "particles", "corner's highest u_z, m", "at, ms", "u_z at 50 ms, m",
+                       "largest |u_x|, m", "u_x at 50 ms, m")
+    for name, run in runs.items():
+        time, height = run.first_maximum("corner_uz_m")
+        sideways = run.history["corner_ux_m"]
+        table.row(name, run["particles"], height, 1e3 * time, run.history["corner_uz_m"][-1], max(map(abs, sideways)),
+                  sideways[-1])
+
+
+SCENES = {"ecae": ecae, "taylor_bar": taylor_bar, "taylor_bar_unstructured": taylor_bar_unstructured,
+          "tensile_cube_unstructured": tensile_cube_unstructured}
