@@ -240,7 +240,7 @@ def tensile_cube(bench):
         reached = run.history["time_s"][-1]
         rough[words] = [roughness(run, t) if t <= 1.01 * reached else None for t in times]
         time, peak = run.first_maximum("tip_m")
-        table.row(words, outcome(run), int(run.history["step"][-1]), min(run.history["smallest_J"]),
+        table.row(words, outcome(run), int(run.history["step"][-1]), min(run.history["smallest_volume_ratio"]),
                   max(run.history["balance_error"]), peak, 1e3 * time, *[number_or_blank(r) for r in rough[words]])
         if "no JST" not in words:
             bench.require(run.good, f"{words} comes to its end")
@@ -259,7 +259,7 @@ def tie_of_J(bench, name, run):
         for xi in (0, 0.1, 0.2, 0.3, 0.5, 1):
             one = run(f"pFJ-{kappa:g}-{xi}", solver__formulation="pFJ", solver__jst4_J=kappa, solver__involution=xi)
             grid.row("{p,F,J}", KAPPA[kappa], xi, outcome(one), int(one.history["step"][-1]),
-                     f"{min(one.history['smallest_J']):.3f}", f"{max(one.history['balance_error']):.1e}",
+                     f"{min(one.history['smallest_volume_ratio']):.3f}", f"{max(one.history['balance_error']):.1e}",
                      f"{total_energy(one, -1) / total_energy(one, 0):.3f}" if one.good else "")
 
 
@@ -281,7 +281,7 @@ def punch(bench):
         jump = [abs(r - l) for l, r in zip(left, right)]
         wobbles[words] = wobble(jump)
         rough[words] = [roughness(run, t) for t in (0.0002, 0.0004, 0.0005)]
-        table.row(words, outcome(run), min(run.history["smallest_J"]), f"{wobbles[words]:.3g}",
+        table.row(words, outcome(run), min(run.history["smallest_volume_ratio"]), f"{wobbles[words]:.3g}",
                   *[abs(run.at(t, "pressure_right_Pa") - run.at(t, "pressure_left_Pa")) / 1e6 for t in times],
                   *[f"{r:.2g}" for r in rough[words]])
         if words == "{p,F}":
@@ -368,7 +368,7 @@ def twisting_column(bench):
         softer = twist(bench, "pFJ-0.45", "pFJ")
         bench.require_above("hourglass at 0.1 s, {p,F} over {p,F,J}", hourglass(run, 0.1) / hourglass(softer, 0.1), 3)
         failing = twist(bench, "displacement", "displacement", solver__jst4=0)
-        bench.require_below("smallest J of displacement without JST", min(failing.history["smallest_J"]), 0.5)
+        bench.require_below("smallest J of displacement without JST", min(failing.history["smallest_volume_ratio"]), 0.5)
         return
     table_5_2(bench)
     refinement(bench)
@@ -432,7 +432,7 @@ def displacement(bench):
         for jst4 in (0, 0.125):
             run = twist(bench, f"displacement-{lattice.replace(' ', '')}-{jst4}", "displacement", solver__jst4=jst4,
                         end_time=0.5 if lattice[0] == "6" else 0.25, particles__spacing=COLUMNS[lattice])
-            smallest = min(run.history["smallest_J"])
+            smallest = min(run.history["smallest_volume_ratio"])
             table.row(lattice, "1/8" if jst4 else 0, outcome(run), smallest, max(run.history["balance_error"]),
                       hourglass(run, 1e9))
             if not jst4:
@@ -452,7 +452,7 @@ def involution(bench):
                         solver__involution=xi, end_time=None if poisson == 0.45 else 0.1)
             reached = run.history["time_s"][-1]
             table.row(poisson, FORMULATIONS[formulation], KAPPA[kappa], xi, outcome(run), int(run.history["step"][-1]),
-                      f"{min(run.history['smallest_J']):.3f}", f"{max(run.history['balance_error']):.1e}",
+                      f"{min(run.history['smallest_volume_ratio']):.3f}", f"{max(run.history['balance_error']):.1e}",
                       f"{run.first_maximum('tip_deg')[1]:.1f}", f"{hourglass(run, 0.1):.4f}" if reached >= 0.099 else "")
 
 

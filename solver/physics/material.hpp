@@ -23,7 +23,7 @@ class Material {
   /// First Piola-Kirchhoff stresses (Pa) within a step: the histories stay as they are.
   virtual void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const = 0;
   /// The step is over: the histories advance to the strains; P (Pa) and the moduli of the fastest waves now,
-  /// rho0 c^2 (Pa), follow.
+  /// rho0 c^2 (Pa), follow as the step is taken from them.
   virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) = 0;
   virtual ElasticConstants linearised() const = 0;
 
@@ -52,7 +52,7 @@ class MaterialOf final : public Material<D> {
     for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
       const Strain strain = strains[a];
       P[a] = law_.piola(strain, history_[a]).template topLeftCorner<D, D>();
-      wave_moduli[a] = largest_wave_modulus(law_, strain);
+      wave_moduli[a] = step_wave_modulus(law_, strain);
     });
   }
 
