@@ -173,7 +173,7 @@ EXACT_SPIN = 1100 * 105 / 6  # rho omega L^5 / 6, kg m^2/s
 
 
 def spinning_cube(bench):
-    end = 0.1 if bench.short else 1.0
+    end = 0.25 if bench.short else 1.0
     table = bench.figures("spinning_cube")
     spin = "spinning_cube/case.toml"
     with_both = bench.run(spin, "pF", end_time=end)
@@ -191,7 +191,7 @@ def spinning_cube(bench):
     bench.require_below("angular momentum without the projection, share left", momentum(unprojected, -1) / momentum(unprojected, 0),
                         0.9 if bench.short else 0.5)
     gain = total_energy(undamped, -1) / total_energy(undamped, 0)
-    bench.require_above("energy without JST, over what it was", gain, 1.003 if bench.short else 1.5)
+    bench.require_above("energy without JST, over what it was", gain, 1.02 if bench.short else 1.5)
     energies = [total_energy(with_both, i) for i in range(len(with_both.history["time_s"]))]
     bench.require_below("energy with JST at its largest, over what it was", max(energies) / energies[0], 1 + 1e-6)
     if bench.short:
@@ -216,7 +216,8 @@ def spinning_cube(bench):
         bench.require_below(f"drift of the momenta in 5 s, {words}",
                             max(run["momentum.linear_drift"], run["momentum.angular_drift"]), 1e-11)
     run = bench.run(spin, "undamped-5s", end_time=5, solver__jst4=0)
-    table.compare("5 s without JST", outcome(run))
+    table.compare("5 s without JST, and their energy over what it was",
+                  f"{outcome(run)}, {total_energy(run, -1) / total_energy(run, 0):.3g}")
     tie_of_J(bench, "spinning_cube.involution", lambda name, **keys: bench.run(spin, name, end_time=5, **keys))
 
 
