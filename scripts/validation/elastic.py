@@ -57,6 +57,11 @@ def hourglass(run, time, axis=2, beginning=1.0):
     return math.sqrt(alternating / count / (sum(p * p for p in pressure) / len(pressure)))
 
 
+def tied(formulation, xi):
+    """κ4 of J and the involution of the formulations that have a J of their own."""
+    return {"solver__jst4_J": 0.125, "solver__involution": xi} if "J" in formulation else {}
+
+
 def total_energy(run, i):
     return run.history["kinetic_J"][i] + run.history["internal_J"][i]
 
@@ -173,7 +178,7 @@ EXACT_SPIN = 1100 * 105 / 6  # rho omega L^5 / 6, kg m^2/s
 
 
 def spinning_cube(bench):
-    end = 0.1 if bench.short else 1.0
+    end = 0.25 if bench.short else 1.0
     table = bench.figures("spinning_cube")
     spin = "spinning_cube/case.toml"
     with_both = bench.run(spin, "pF", end_time=end)
@@ -191,7 +196,7 @@ def spinning_cube(bench):
     bench.require_below("angular momentum without the projection, share left", momentum(unprojected, -1) / momentum(unprojected, 0),
                         0.9 if bench.short else 0.5)
     gain = total_energy(undamped, -1) / total_energy(undamped, 0)
-    bench.require_above("energy without JST, over what it was", gain, 1.003 if bench.short else 1.5)
+    bench.require_above("energy without JST, over what it was", gain, 1.02 if bench.short else 1.5)
     energies = [total_energy(with_both, i) for i in range(len(with_both.history["time_s"]))]
     bench.require_below("energy with JST at its largest, over what it was", max(energies) / energies[0], 1 + 1e-6)
     if bench.short:
@@ -204,7 +209,7 @@ def spinning_cube(bench):
     table.compare("kinetic energy at 1 s without JST, J", undamped.history["kinetic_J"][-1], None, 3.2e6)
     table.compare("kinetic energy at 1 s with JST, J", with_both.history["kinetic_J"][-1])
     for formulation, words in FORMULATIONS.items():
-        run = bench.run(spin, f"{formulation}-5s", end_time=5, solver__formulation=formulation)
+        run = bench.run(spin, f"{formulation}-5s", end_time=5, solver__formulation=formulation, **tied(formulation, 0.5))
         bench.require(run.good, f"5 s of {words} come to their end")
         if not run.good:
             table.compare(f"5 s of {words}", outcome(run))
@@ -216,7 +221,8 @@ def spinning_cube(bench):
         bench.require_below(f"drift of the momenta in 5 s, {words}",
                             max(run["momentum.linear_drift"], run["momentum.angular_drift"]), 1e-11)
     run = bench.run(spin, "undamped-5s", end_time=5, solver__jst4=0)
-    table.compare("5 s without JST", outcome(run))
+    table.compare("5 s without JST, and their energy over what it was",
+                  f"{outcome(run)}, {total_energy(run, -1) / total_energy(run, 0):.3g}")
     tie_of_J(bench, "spinning_cube.involution", lambda name, **keys: bench.run(spin, name, end_time=5, **keys))
 
 
@@ -269,7 +275,8 @@ def punch(bench):
     case = "punch/case.toml"
     variants = {"{p,F}": {}, "{p,F}, no JST": {"jst4": 0}}
     if not bench.short:
-        variants |= {"{p,F,J}": {"formulation": "pFJ"}, "{p,F,H,J}": {"formulation": "pFHJ"}}
+        variants |= {"{p,F,J}": {"formulation": "pFJ", "jst4_J": 0.125, "involution": 0.5},
+                     "{p,F,H,J}": {"formulation": "pFHJ", "jst4_J": 0.125, "involution": 0.5}}
     times = (0.0001, 0.0002, 0.0003, 0.0004, 0.0005)
     table = bench.grid("punch", "formulation", "comes", "smallest J", "wobble of the jump",
                        *[f"jump at {1e3 * t:g} ms, MPa" for t in times], *[f"roughness at {t} ms" for t in (0.2, 0.4, 0.5)])
@@ -325,11 +332,19 @@ def bending_column(bench):
         table.compare(f"largest sway out of the plane, {lattice}, m", sway, 0)
     if bench.short:
         return
-    (_, coarse), (_, middle), (_, fine) = (peaks[lattice] for lattice in COLUMNS)
-    bench.require_below("step of the first peak from 6 x 6 x 31 to 12 x 12 x 67 over that before", abs(fine - middle) / abs(middle - coarse), 1)
+    gaps = []
+    for lattice in COLUMNS:  # the same limit from the other side
+        run = bench.run("bending_column/case.toml", "voronoi-" + lattice.replace(" ", ""), end_time=0.6, rows=600,
+                        particles__spacing=COLUMNS[lattice], particles__subvolumes="voronoi")
+        time, peak = run.first_maximum("corner_y_m")
+        table.compare(f"first peak, {lattice}, Voronoi subvolumes, m at s", f"{peak:.4g} at {time:.4g}")
+        gaps.append(abs(peak - peaks[lattice][1]))
+    table.compare("first peaks of uniform and Voronoi subvolumes apart, coarse to fine, m", ", ".join(f"{gap:.2f}" for gap in gaps))
+    bench.require(gaps[2] < gaps[1] < gaps[0], "tip curves of both subvolumes approach each other with N")
     hard = bench.figures("bending_column.hard")
     for lattice in COLUMNS:
-        run = bench.run("bending_column/hard.toml", "hard-" + lattice.replace(" ", ""), frames=25, rows=2500,
+        end = 0.6 if lattice.startswith("12") else None  # its first swing, for time's sake
+        run = bench.run("bending_column/hard.toml", "hard-" + lattice.replace(" ", ""), end_time=end, frames=25, rows=2500,
                         particles__spacing=COLUMNS[lattice])
         bench.require(run.good, f"pushed over its whole height, {lattice}, comes to its end")
         if not run.good:
@@ -365,7 +380,7 @@ def twisting_column(bench):
         time, angle = run.first_maximum("tip_deg")
         bench.require_near("the tip's largest angle, degrees", angle, 371.5, 0.01)
         bench.require_near("and when, s", time, 0.1002, 0.01)
-        softer = twist(bench, "pFJ-0.45", "pFJ")
+        softer = twist(bench, "pFJ-0.45", "pFJ", solver__jst4_J=0.125, solver__involution=0.2)
         bench.require_above("hourglass at 0.1 s, {p,F} over {p,F,J}", hourglass(run, 0.1) / hourglass(softer, 0.1), 3)
         failing = twist(bench, "displacement", "displacement", solver__jst4=0)
         bench.require_below("smallest J of displacement without JST", min(failing.history["smallest_volume_ratio"]), 0.5)
@@ -383,7 +398,8 @@ def table_5_2(bench):
     for poisson in (0.45, 0.495, 0.4995):
         for formulation, words in FORMULATIONS.items():
             key = (formulation, poisson)
-            run = twist(bench, f"{formulation}-{poisson}", formulation, poisson)
+            tie = tied(formulation, 0.1)
+            run = twist(bench, f"{formulation}-{poisson}" + ("-tied" if tie else ""), formulation, poisson, **tie)
             if not run.good:
                 table.row(poisson, words, TABLE_5_2[key], outcome(run))
                 bench.require(False, f"{words} at nu {poisson} comes to its end")
