@@ -104,7 +104,7 @@ struct SceneSpec {
   std::optional<Kappa4> jst4{};       ///< kappa4 of (3.85); absent: 1/8, none with displacements
   double jst2 = 0;                    ///< kappa2 of (3.84)
   std::optional<double> jst4_J{};     ///< kappa4 of the volume map; absent: that of the momentum
-  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2
+  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 4 jst4_J
   double cfl = 0.3;                   ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s

@@ -120,7 +120,7 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     number(key, *value, *value >= 0 && *value <= most, fmt::format("from 0 to {:g}", most));
   };
   only_with_J("solver.jst4_J", scene.jst4_J, 1);
-  only_with_J("solver.involution", scene.involution, 1);
+  only_with_J("solver.involution", scene.involution, 4);
   number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
 
