@@ -4,6 +4,8 @@ import math
 
 import vtu
 
+KAPPA = {0: "0", 1 / 32: "1/32", 0.125: "1/8", 0.25: "1/4"}
+
 
 def line_neighbours(points):
     """Of a lattice: (i, before, after) for every particle and axis on which it has a neighbour either side."""
@@ -69,3 +71,31 @@ def percent(share):
 
 def number_or_blank(value):
     return "" if value is None else f"{value:.2g}"
+
+
+def component_sum(run):
+    """L1 of the swinging cube's velocity with |ex| + |ey| + |ez| in place of the length of e."""
+    points = vtu.read_points(run.folder / "cloud.vtp")
+    volume = vtu.read_array(run.folder / "cloud.vtp", "volume")
+    velocity = vtu.read_array(run.frames()[-1][1], "Velocity")
+    frequency = 392.42437086993
+    speed = -5e-4 * frequency * math.sin(frequency * run["time"])
+    total = 0.0
+    for a, X in enumerate(points):
+        sine, cosine = [math.sin(math.pi * x / 2) for x in X], [math.cos(math.pi * x / 2) for x in X]
+        for i in range(3):
+            exact = speed * sine[i] * cosine[(i + 1) % 3] * cosine[(i + 2) % 3]
+            total += volume[a] * abs(velocity[3 * a + i] - exact)
+    return total
+
+
+def tie_of_J(bench, name, run):
+    """What becomes of {p,F,J} as its J is smoothed (κ4 of J) and tied to det F (ξ): run(folder, **keys)."""
+    grid = bench.grid(name, "formulation", "κ4 of J", "involution ξ", "comes", "steps", "smallest J", "energy balance error",
+                      "energy at the end over that at the start")
+    for kappa in (0, 1 / 32, 0.125):
+        for xi in (0, 0.1, 0.2, 0.3, 0.5, 1):
+            one = run(f"pFJ-{kappa:g}-{xi}", solver__formulation="pFJ", solver__jst4_J=kappa, solver__involution=xi)
+            grid.row("{p,F,J}", KAPPA[kappa], xi, outcome(one), int(one.history["step"][-1]),
+                     f"{min(one.history['smallest_J']):.3f}", f"{max(one.history['balance_error']):.1e}",
+                     f"{total_energy(one, -1) / total_energy(one, 0):.3f}" if one.good else "")
