@@ -41,8 +41,8 @@ double largest_wave_modulus(const L& law, const Strain& strain) {
     return usual;
 }
 
-/// rho0 c^2, Pa, that the step is taken from: (3.93) as it stands while no wave is faster than that by more than
-/// a quarter, for which a CFL number of 0.3 leaves room; else the law's own.
+/// rho0 c^2, Pa, that the step is taken from: (3.93) as it stands while no wave is faster than that by more
+/// than a quarter, for which a CFL number of 0.3 leaves room; else the law's own.
 template <ConstitutiveLaw L>
 double step_wave_modulus(const L& law, const Strain& strain) {
   const double usual = law.linearised().pressure_wave_modulus() / squared_stretches(strain.F).minCoeff();

@@ -35,8 +35,8 @@ inline double chosen_kappa4_J(const SceneSpec& scene) {
   return scene.jst4_J.value_or(scene.jst4.value_or(Kappa4{}).elastic);
 }
 
-/// On a cloud with a boundary lap lap of J is not symmetric and feeds some fields at up to 1.5 kappa4 c/Delta:
-/// from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md).
+/// On a cloud with a boundary lap lap of J is not symmetric and feeds some fields at up to 1.5 kappa4
+/// c/Delta: from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md).
 inline double chosen_involution(const SceneSpec& scene) {
   return scene.involution.value_or(4 * chosen_kappa4_J(scene));
 }

@@ -119,8 +119,8 @@ struct SceneSpec {
 
 struct Energies {
   double kinetic = 0, internal = 0, plastic = 0, dissipated = 0, external = 0; ///< J
-  double balance_error = 0; ///< |what is unaccounted for| / largest total so far; in a Summary the worst of the
-                            ///< one over the largest of the other
+  double balance_error = 0; ///< |what is unaccounted for| / largest total so far; in a Summary the worst of
+                            ///< the one over the largest of the other
 };
 
 /// Largest and smallest values over the particles and over the run, as far as its history rows saw them.

@@ -93,9 +93,8 @@ TEST(Involution, KeepsAVolumeMapThatItsDissipationWouldDriveAway) {
   SceneSpec scene;
   scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
   scene.formulation = "pFJ";
-  scene.initial.push_back(
-      {"all", Formulas{Expression("-105*sin(_pi*Z/12)*(Y-0.5)"), Expression("105*sin(_pi*Z/12)*(X-0.5)"),
-                       Expression("0")}});
+  scene.initial.push_back({"all", Formulas{Expression("-105*sin(_pi*Z/12)*(Y-0.5)"),
+                                           Expression("105*sin(_pi*Z/12)*(X-0.5)"), Expression("0")}});
   scene.boundary.push_back({Kind::fixed, "base"});
   scene.end_time = 0.1;
   const auto cloud = test::box_lattice(6, 6, 31, Vec3(1, 1, 6));
@@ -110,8 +109,8 @@ TEST(Involution, KeepsAVolumeMapThatItsDissipationWouldDriveAway) {
 TEST(Loads, AFreeBodyFallsWithoutStrain) {
   SceneSpec scene;
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
-  scene.boundary.push_back({Kind::body_force, "all", {true, true, true},
-                            {Expression("0"), Expression("0"), Expression("-9.81")}});
+  scene.boundary.push_back(
+      {Kind::body_force, "all", {true, true, true}, {Expression("0"), Expression("0"), Expression("-9.81")}});
   scene.probes = {{"lowest", "uz", "min", "all"}, {"highest", "uz", "max", "all"}};
   scene.end_time = 0.1;
   const Summary summary = run(scene, test::box_lattice(4, 5, 4, Vec3(1, 1, 1)), {}, Progress::silent());
@@ -128,7 +127,9 @@ TEST(Loads, ASuddenTractionStretchesABarTwiceAsFarAsASlowOne) {
   SceneSpec scene;
   scene.material = {"linear_elastic", density, young, 0, std::nullopt};
   scene.boundary.push_back({Kind::fixed, "base"});
-  scene.boundary.push_back({Kind::traction, "top", {true, true, true},
+  scene.boundary.push_back({Kind::traction,
+                            "top",
+                            {true, true, true},
                             {Expression("0"), Expression(std::to_string(traction)), Expression("0")}});
   scene.probes = {{"tip", "uy", "mean", "top"}};
   scene.end_time = 2 * L / c;

@@ -64,8 +64,8 @@ TEST(Material, KnowsTheFastestWaveOfTheStrainedBody) {
 }
 
 TEST(Material, TheStepKeepsToTheRuleUntilALawOutrunsIt) {
-  // (3.93): the wave at rest over the smallest stretch. Rubber in moderate strain goes by it to the bit; Ogden's
-  // law in compression has waves more than twice as fast.
+  // (3.93): the wave at rest over the smallest stretch. Rubber in moderate strain goes by it to the bit;
+  // Ogden's law in compression has waves more than twice as fast.
   const Strain twisted = Strain::of(Vec3(1.3, 0.8, 1 / (1.3 * 0.8)).asDiagonal());
   const NeoHookean rubber{ElasticConstants::from(17e6, 0.45)};
   EXPECT_EQ(step_wave_modulus(rubber, twisted),
