@@ -59,7 +59,9 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
                                       : fmt::format("the volume ratio J is {:.3g}", breakdown.J),
                       breakdown.particle, X[0], X[1], X[2]),
           fmt::format("step {}, time {:.6g} s", summary.steps + 1, time),
-          "the last good frame is written: lower solver.cfl, raise solver.jst4 or refine the particles");
+          fmt::format(
+              "the last good frame is written: lower solver.cfl, raise solver.{} or refine the particles",
+              is_consistent(scene) ? "residual" : "jst4"));
     }
     time = last ? scene.end_time : time + dt;
     ++summary.steps;
@@ -101,11 +103,15 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
   place(true, fmt::format("{} in {} dimensions, {}", Formulation::title, Body::dimension, scene.material.law),
         "");
   place(scene.material.plasticity.has_value(), "von Mises plasticity", "no [material.plasticity]");
-  place(Body::dissipates, "JST dissipation", "solver.jst4 = 0");
-  if constexpr (Body::dissipates)
+  const bool consistent = is_consistent(scene);
+  place(consistent, "balance of constant stresses", "solver.scheme = \"thesis\"");
+  place(Body::dissipates, consistent ? "residual dissipation" : "JST dissipation",
+        consistent ? "solver.residual = 0" : "solver.jst4 = 0");
+  if (Body::dissipates && !consistent)
     place(scene.jst2 > 0, "JST's shock term", "solver.jst2 = 0");
   if constexpr (Formulation::evolves_J) {
-    place(Body::dissipates_J, "JST dissipation of J", "solver.jst4_J = 0");
+    place(Body::dissipates_J, consistent ? "residual dissipation of J" : "JST dissipation of J",
+          consistent ? "solver.residual_J = 0" : "solver.jst4_J = 0");
     place(chosen_involution(scene) > 0, "involution penalty", "solver.involution = 0");
   }
   place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");
@@ -127,16 +133,18 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
   forecast.bytes_per_particle = bytes_of<Body>(assembly);
-  constexpr int D = Body::dimension;
-  const auto bytes = [&]<class Formulation, class Dissipation>() {
-    forecast.bytes_by_formulation.emplace_back(
-        Formulation::name, bytes_per_particle<Formulation, Dissipation>(
-                               body.neighbours.mean(), body.material->history_bytes(), step.works()));
+  const auto bytes = [&]<class Formulation>() {
+    with_dissipation<Formulation>(scene, [&]<class Dissipation>() {
+      forecast.bytes_by_formulation.emplace_back(
+          Formulation::name, bytes_per_particle<Formulation, Dissipation>(
+                                 body.neighbours.mean(), body.material->history_bytes(), step.works()));
+    });
   };
-  bytes.template operator()<Displacement<D>, NoDissipation>();
-  bytes.template operator()<PF<D>, Jst<D>>();
-  bytes.template operator()<PFJ<D>, JstWithJ<D>>();
-  bytes.template operator()<PFHJ<D>, JstWithJ<D>>();
+  constexpr int D = Body::dimension;
+  bytes.template operator()<Displacement<D>>();
+  bytes.template operator()<PF<D>>();
+  bytes.template operator()<PFJ<D>>();
+  bytes.template operator()<PFHJ<D>>();
   list_models(scene, body, forecast);
 
   // A few real steps on this machine; the first warms the caches.
