@@ -15,8 +15,6 @@
 
 namespace tessera::solver {
 
-using Kappa4 = PlasticRamp;
-
 /// Of the linear momentum. c is the local pressure wave speed, Delta the smallest particle distance.
 template <int D>
 struct Jst : DissipationDefaults {

@@ -20,4 +20,7 @@ struct PlasticRamp {
   }
 };
 
+/// The fourth-order coefficient of (3.85).
+using Kappa4 = PlasticRamp;
+
 } // namespace tessera::solver

@@ -10,6 +10,7 @@
 #include "solver/scene/graph.hpp"
 #include "solver/scene/make_material.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/time/stable_length.hpp"
 #include "solver/time/step.hpp"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ template <class Body>
 struct Assembly {
   Body body;
   Step<Body> step;
-  double smallest_distance; ///< between two particles, m: Delta of (3.93) and (3.85)
+  double step_length; ///< the way the fastest wave may go in a step, m
 };
 
 /// Calls use(assembly): a body is built where it stays.
@@ -52,7 +53,9 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
                 std::move(gradient), std::move(dissipation),
                 Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
       Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection),
-      smallest};
+      scene.cfl * smallest};
+  if constexpr (Dissipation::looks_at_gradient)
+    assembly.step_length = std::min(assembly.step_length, stable_length(assembly.body));
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
 }

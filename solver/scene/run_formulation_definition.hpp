@@ -23,8 +23,8 @@ inline double seconds_now() {
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                      Progress& progress, Assembly<Body>& assembly) {
-  auto& [body, step, distance] = assembly;
-  double dt = stable_step(body, scene.cfl, distance);
+  auto& [body, step, length] = assembly;
+  double dt = stable_step(body, length);
   step.start(body, dt);
   Reporter<Body> reporter(scene, cloud, outputs, assembly);
 
@@ -42,7 +42,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   const double start = seconds_now();
   progress.begin("solve", scene.end_time);
   while (time < scene.end_time) {
-    dt = stable_step(body, scene.cfl, distance);
+    dt = stable_step(body, length);
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
     const bool last = time + dt >= scene.end_time;
@@ -125,11 +125,11 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
 
 template <class Body>
 Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
-  auto& [body, step, distance] = assembly;
+  auto& [body, step, length] = assembly;
   Forecast forecast;
   forecast.mass = body.density * sum(body.size(), 0.0, [&](std::int64_t a) { return body.V[a]; });
   forecast.wave_speed = body.wave_speed;
-  forecast.dt = stable_step(body, scene.cfl, distance);
+  forecast.dt = stable_step(body, length);
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
   forecast.bytes_per_particle = bytes_of<Body>(assembly);
