@@ -70,21 +70,29 @@ solver::MaterialSpec read_material(Table material) {
   return spec;
 }
 
+/// A number, or a table that says how it falls with the plastic strain.
+std::optional<solver::PlasticRamp> read_ramp(Table& table, const std::string& key) {
+  if (!table.is_table(key)) {
+    const auto constant = table.optional_number(key);
+    return constant ? std::optional(solver::PlasticRamp::constant(*constant)) : std::nullopt;
+  }
+  Table ramp = table.table(key);
+  const solver::PlasticRamp result{ramp.number("elastic"), ramp.number("plastic"), ramp.number("strain")};
+  ramp.finish();
+  return result;
+}
+
 void read_solver(Table solver, solver::SceneSpec& scene) {
   scene.formulation = solver.text_or("formulation", scene.formulation);
   scene.scheme = solver.text_or("scheme", scene.scheme);
   scene.kernel = solver.text_or("kernel", scene.kernel);
   scene.support = solver.optional_number("support");
   scene.neighbours = static_cast<int>(solver.integer_or("neighbours", scene.neighbours, 1, 1000));
-  if (solver.is_table("jst4")) {
-    Table ramp = solver.table("jst4");
-    scene.jst4 = solver::Kappa4{ramp.number("elastic"), ramp.number("plastic"), ramp.number("strain")};
-    ramp.finish();
-  } else if (const auto constant = solver.optional_number("jst4")) {
-    scene.jst4 = solver::Kappa4::constant(*constant);
-  }
+  scene.jst4 = read_ramp(solver, "jst4");
   scene.jst2 = solver.number_or("jst2", scene.jst2);
   scene.jst4_J = solver.optional_number("jst4_J");
+  scene.residual = read_ramp(solver, "residual");
+  scene.residual_J = solver.optional_number("residual_J");
   scene.involution = solver.optional_number("involution");
   scene.cfl = solver.number_or("cfl", scene.cfl);
   scene.momentum_projection = solver.boolean_or("momentum_projection", scene.momentum_projection);

@@ -5,7 +5,6 @@
 #include "core/parallel.hpp"
 #include "solver/operators/gradient.hpp"
 #include "solver/physics/formulation.hpp"
-#include "solver/physics/jst.hpp"
 #include "solver/physics/material.hpp"
 
 #include <cmath>
@@ -44,6 +43,8 @@ class Body {
   static constexpr bool dissipates = Dissipation::active;
   static constexpr bool dissipates_J = Dissipation::of_J;
   static_assert(Formulation::evolves_J || !dissipates_J);
+  static constexpr bool nets_J = Dissipation::nets_J;
+  static constexpr bool finds_gradient = Formulation::evolves_F || Dissipation::looks_at_gradient;
 
   /// At rest at the reference positions.
   explicit Body(BodyParts<D, Dissipation> parts)
@@ -57,6 +58,8 @@ class Body {
     dissipation.allocate(V.size());
     if constexpr (!Formulation::evolves_F)
       gradient_of_x_.assign(V.size(), Mat<D>::Identity());
+    if constexpr (!Formulation::evolves_F && finds_gradient)
+      gradient_of_v_.assign(V.size(), Mat<D>::Zero());
     commit();
   }
 
@@ -88,7 +91,7 @@ class Body {
   void stresses() {
     check();
     material->stresses(strains(), P);
-    sense();
+    dissipation.sense(*this);
   }
 
   /// The step is over: the histories advance to U, P and the wave speeds follow. Throws Breakdown, before any
@@ -97,12 +100,8 @@ class Body {
     check();
     material->commit(strains(), P, wave);
     for_each(size(), [&](std::int64_t a) { wave[a] = std::sqrt(wave[a] / density); });
-    if constexpr (dissipates)
-      if (dissipation.kappa4.ramped())
-        for_each(size(), [&](std::int64_t a) {
-          dissipation.epsilon4[a] = dissipation.kappa4.at(material->equivalent_plastic_strain(a));
-        });
-    sense();
+    dissipation.advance(*this);
+    dissipation.sense(*this);
   }
 
   /// Largest pressure wave speed as the body is deformed, (3.93), m/s.
@@ -111,6 +110,14 @@ class Body {
   }
 
   Vec<D> velocity(std::int64_t a) const { return U.p[a] / density; }
+  /// G = grad v of the last rates, 1/s.
+  const Mat<D>& velocity_gradient(std::int64_t a) const {
+    static_assert(finds_gradient);
+    if constexpr (Formulation::evolves_F)
+      return R.F[a];
+    else
+      return gradient_of_v_[a];
+  }
   StrainFields<D> strains() const {
     if constexpr (Formulation::evolves_F)
       return U.strain_fields();
@@ -153,51 +160,28 @@ class Body {
     });
   }
 
-  /// The sensor of the shock term, where there is one, from the mean normal stress in D dimensions.
-  void sense() {
-    if constexpr (dissipates) {
-      if (dissipation.epsilon2.empty())
-        return;
-      std::vector<double> pressure(V.size());
-      for_each(size(), [&](std::int64_t a) {
-        const Mat<D>& F = strains().F[a];
-        pressure[a] = P[a].cwiseProduct(F).sum() / (D * F.determinant());
-      });
-      sense_shocks(dissipation, neighbours, pressure);
-    }
-  }
-
-  /// One sweep over the edges gathers v for G and, where there is dissipation, lap p and lap J.
+  /// One sweep over the edges gathers v for G and what the dissipation wants first.
   void strain_rates() {
     for_each(size(), [&](std::int64_t a) {
       Mat<D> G = Mat<D>::Zero();
-      Vec<D> lap_p = Vec<D>::Zero();
-      double lap_J = 0;
-      if constexpr (Formulation::evolves_F)
+      if constexpr (finds_gradient)
         G = -U.p[a] * gradient.s[a].transpose();
-      if constexpr (dissipates)
-        lap_p = -dissipation.laplacian.sum[a] * U.p[a];
-      if constexpr (dissipates_J)
-        lap_J = -dissipation.laplacian.sum[a] * U.J[a];
-      if constexpr (Formulation::evolves_F || dissipates)
+      auto rough = dissipation.begin_first(*this, a);
+      if constexpr (finds_gradient || Dissipation::sweeps_first)
         for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
           const std::int32_t b = neighbours.column[e];
           const Vec<D>& p_b = U.p[b];
-          if constexpr (Formulation::evolves_F)
+          if constexpr (finds_gradient)
             for (int c = 0; c < D; ++c)
               G.col(c) += gradient.w[e][c] * p_b;
-          if constexpr (dissipates)
-            lap_p += dissipation.laplacian.l[e] * p_b;
-          if constexpr (dissipates_J)
-            lap_J += dissipation.laplacian.l[e] * U.J[b];
+          dissipation.add_first(rough, *this, e, b);
         }
       R.x[a] = U.p[a] / density;
       if constexpr (Formulation::evolves_F)
         R.F[a] = G / density;
-      if constexpr (dissipates)
-        dissipation.lap_p[a] = lap_p;
-      if constexpr (dissipates_J)
-        dissipation.lap_J[a] = lap_J;
+      else if constexpr (finds_gradient)
+        gradient_of_v_[a] = G / density;
+      dissipation.end_first(rough, a);
       map_rates(a);
     });
   }
@@ -217,39 +201,25 @@ class Body {
     }
   }
 
-  /// The second sweep gathers P for T and, where there is dissipation, the Laplacians for their own.
+  /// The second sweep gathers P for T and what the dissipation goes by.
   void momentum_rates() {
     for_each(size(), [&](std::int64_t a) {
       Vec<D> divergence = P[a] * gradient.s[a];
-      Vec<D> lap_lap_p = Vec<D>::Zero();
-      double lap_lap_J = 0;
-      if constexpr (dissipates)
-        lap_lap_p = -dissipation.laplacian.sum[a] * dissipation.lap_p[a];
-      if constexpr (dissipates_J)
-        lap_lap_J = -dissipation.laplacian.sum[a] * dissipation.lap_J[a];
+      auto rough = dissipation.begin_second(*this, a);
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const std::int32_t b = neighbours.column[e];
         divergence += P[b] * gradient.t[e];
-        if constexpr (dissipates)
-          lap_lap_p += dissipation.laplacian.l[e] * dissipation.lap_p[b];
-        if constexpr (dissipates_J)
-          lap_lap_J += dissipation.laplacian.l[e] * dissipation.lap_J[b];
+        dissipation.add_second(rough, *this, a, e, b);
       }
       T[a] = divergence;
       R.p[a] = divergence;
-      if constexpr (dissipates)
-        R.p[a] +=
-            wave[a] * (dissipation.second(a) * dissipation.lap_p[a] - dissipation.fourth(a) * lap_lap_p);
-      if constexpr (dissipates_J) {
-        dissipation.rate_J[a] =
-            wave[a] * (dissipation.second(a) * dissipation.lap_J[a] - dissipation.fourth_J(a) * lap_lap_J);
-        R.J[a] += dissipation.rate_J[a];
-      }
+      dissipation.end_second(rough, *this, a);
     });
   }
 
   double involution_;                   ///< xi / Delta, 1/m
   std::vector<Mat<D>> gradient_of_x_{}; ///< F where no field evolves it
+  std::vector<Mat<D>> gradient_of_v_{}; ///< G where no field evolves by it, but the dissipation looks at it
 };
 
 } // namespace tessera::solver

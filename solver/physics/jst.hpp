@@ -5,6 +5,8 @@
 #include "core/parallel.hpp"
 #include "core/tensor.hpp"
 #include "solver/operators/laplacian.hpp"
+#include "solver/physics/dissipation.hpp"
+#include "solver/physics/plastic_ramp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,30 +15,18 @@
 
 namespace tessera::solver {
 
-/// kappa4, falling linearly from `elastic` to `plastic` while the plastic strain grows from 0 to `strain`,
-/// (5.6); constant where both are equal.
-struct Kappa4 {
-  double elastic = 1.0 / 8;
-  double plastic = 1.0 / 8;
-  double strain = 1;
-
-  static Kappa4 constant(double value) { return {value, value, 1}; }
-  bool ramped() const { return plastic != elastic; }
-  double at(double plastic_strain) const {
-    return elastic + (plastic - elastic) * std::min(plastic_strain / strain, 1.0);
-  }
-};
-
 /// Of the linear momentum. c is the local pressure wave speed, Delta the smallest particle distance.
 template <int D>
-struct Jst {
-  static constexpr bool active = true, of_J = false;
+struct Jst : DissipationDefaults {
+  static constexpr bool active = true, sweeps_first = true;
+  static constexpr std::size_t edge_bytes = sizeof(double),
+                               particle_bytes = 2 * sizeof(double) + sizeof(Vec<D>);
 
-  Laplacian laplacian;
-  double delta; ///< Delta, m
-  Kappa4 kappa4;
+  Laplacian laplacian{};
+  double delta = 1; ///< Delta, m
+  Kappa4 kappa4{};
   double kappa2 = 0;              ///< of the shock term; 0: no sensor, no array
-  double pressure_floor;          ///< Pa: pressures below it are no shock's
+  double pressure_floor = 0;      ///< Pa: pressures below it are no shock's
   std::vector<double> epsilon4{}; ///< kappa4 of every particle; the shock term takes its part off
   std::vector<double> epsilon2{}; ///< kappa2 times the largest sensor among the neighbours; empty without
   std::vector<Vec<D>> lap_p{};    ///< lap p, kg/(m^4 s)
@@ -50,8 +40,54 @@ struct Jst {
 
   /// The undivided coefficients of c lap U and of -c lap(lap U) at particle a: m and m^3.
   double second(std::int64_t a) const { return epsilon2.empty() ? 0 : epsilon2[a] * delta; }
-  double fourth(std::int64_t a) const {
-    const double epsilon = epsilon2.empty() ? epsilon4[a] : std::max(0.0, epsilon4[a] - epsilon2[a]);
+  double fourth(std::int64_t a) const { return fourth(a, epsilon4[a]); }
+
+  template <class Body>
+  Vec<D> begin_first(const Body& body, std::int64_t a) const {
+    return -laplacian.sum[a] * body.U.p[a];
+  }
+  template <class Body>
+  void add_first(Vec<D>& lap, const Body& body, std::int64_t e, std::int32_t b) const {
+    lap += laplacian.l[e] * body.U.p[b];
+  }
+  void end_first(const Vec<D>& lap, std::int64_t a) { lap_p[a] = lap; }
+
+  template <class Body>
+  Vec<D> begin_second(const Body&, std::int64_t a) const {
+    return -laplacian.sum[a] * lap_p[a];
+  }
+  template <class Body>
+  void add_second(Vec<D>& lap_lap, const Body&, std::int64_t, std::int64_t e, std::int32_t b) const {
+    lap_lap += laplacian.l[e] * lap_p[b];
+  }
+  template <class Body>
+  void end_second(const Vec<D>& lap_lap, Body& body, std::int64_t a) {
+    body.R.p[a] += body.wave[a] * (second(a) * lap_p[a] - fourth(a) * lap_lap);
+  }
+
+  template <class Body>
+  void advance(const Body& body) {
+    if (kappa4.ramped())
+      for_each(body.size(),
+               [&](std::int64_t a) { epsilon4[a] = kappa4.at(body.material->equivalent_plastic_strain(a)); });
+  }
+
+  /// The sensor of the shock term, where there is one, from the mean normal stress in D dimensions.
+  template <class Body>
+  void sense(const Body& body) {
+    if (epsilon2.empty())
+      return;
+    std::vector<double> pressure(body.V.size());
+    for_each(body.size(), [&](std::int64_t a) {
+      const Mat<D>& F = body.strains().F[a];
+      pressure[a] = body.P[a].cwiseProduct(F).sum() / (D * F.determinant());
+    });
+    sense_shocks(*this, body.neighbours, pressure);
+  }
+
+ protected:
+  double fourth(std::int64_t a, double kappa) const {
+    const double epsilon = epsilon2.empty() ? kappa : std::max(0.0, kappa - epsilon2[a]);
     return epsilon * delta * delta * delta;
   }
 };
@@ -59,27 +95,54 @@ struct Jst {
 /// Of the linear momentum and of the volume map.
 template <int D>
 struct JstWithJ : Jst<D> {
-  static constexpr bool of_J = true;
+  static constexpr bool of_J = true, nets_J = true;
+  static constexpr std::size_t particle_bytes = Jst<D>::particle_bytes + 2 * sizeof(double);
 
-  double kappa4_J;              ///< of the volume map
+  double kappa4_J = 0;          ///< of the volume map
   std::vector<double> lap_J{};  ///< 1/m^2
   std::vector<double> rate_J{}; ///< D^J, 1/s
+
+  struct Laps {
+    Vec<D> p;
+    double J;
+  };
 
   void allocate(std::size_t n) {
     Jst<D>::allocate(n);
     lap_J.assign(n, 0.0);
     rate_J.assign(n, 0.0);
   }
-  double fourth_J(std::int64_t a) const {
-    const double epsilon = this->epsilon2.empty() ? kappa4_J : std::max(0.0, kappa4_J - this->epsilon2[a]);
-    return epsilon * this->delta * this->delta * this->delta;
-  }
-};
+  double fourth_J(std::int64_t a) const { return Jst<D>::fourth(a, kappa4_J); }
 
-/// For scenes that ask for none: no weights, no arrays, no loop.
-struct NoDissipation {
-  static constexpr bool active = false, of_J = false;
-  void allocate(std::size_t) {}
+  template <class Body>
+  Laps begin_first(const Body& body, std::int64_t a) const {
+    return {Jst<D>::begin_first(body, a), -this->laplacian.sum[a] * body.U.J[a]};
+  }
+  template <class Body>
+  void add_first(Laps& lap, const Body& body, std::int64_t e, std::int32_t b) const {
+    Jst<D>::add_first(lap.p, body, e, b);
+    lap.J += this->laplacian.l[e] * body.U.J[b];
+  }
+  void end_first(const Laps& lap, std::int64_t a) {
+    Jst<D>::end_first(lap.p, a);
+    lap_J[a] = lap.J;
+  }
+
+  template <class Body>
+  Laps begin_second(const Body& body, std::int64_t a) const {
+    return {Jst<D>::begin_second(body, a), -this->laplacian.sum[a] * lap_J[a]};
+  }
+  template <class Body>
+  void add_second(Laps& lap_lap, const Body& body, std::int64_t a, std::int64_t e, std::int32_t b) const {
+    Jst<D>::add_second(lap_lap.p, body, a, e, b);
+    lap_lap.J += this->laplacian.l[e] * lap_J[b];
+  }
+  template <class Body>
+  void end_second(const Laps& lap_lap, Body& body, std::int64_t a) {
+    Jst<D>::end_second(lap_lap.p, body, a);
+    rate_J[a] = body.wave[a] * (this->second(a) * lap_J[a] - fourth_J(a) * lap_lap.J);
+    body.R.J[a] += rate_J[a];
+  }
 };
 
 /// epsilon2 of every particle from its pressures (Pa): kappa2 times the largest sensor (3.87) of itself and

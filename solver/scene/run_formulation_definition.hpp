@@ -23,8 +23,8 @@ inline double seconds_now() {
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                      Progress& progress, Assembly<Body>& assembly) {
-  auto& [body, step, distance] = assembly;
-  double dt = stable_step(body, scene.cfl, distance);
+  auto& [body, step, length] = assembly;
+  double dt = stable_step(body, length);
   step.start(body, dt);
   Reporter<Body> reporter(scene, cloud, outputs, assembly);
 
@@ -42,7 +42,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   const double start = seconds_now();
   progress.begin("solve", scene.end_time);
   while (time < scene.end_time) {
-    dt = stable_step(body, scene.cfl, distance);
+    dt = stable_step(body, length);
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
     const bool last = time + dt >= scene.end_time;
@@ -59,7 +59,9 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
                                       : fmt::format("the volume ratio J is {:.3g}", breakdown.J),
                       breakdown.particle, X[0], X[1], X[2]),
           fmt::format("step {}, time {:.6g} s", summary.steps + 1, time),
-          "the last good frame is written: lower solver.cfl, raise solver.jst4 or refine the particles");
+          fmt::format(
+              "the last good frame is written: lower solver.cfl, raise solver.{} or refine the particles",
+              is_consistent(scene) ? "residual" : "jst4"));
     }
     time = last ? scene.end_time : time + dt;
     ++summary.steps;
@@ -101,11 +103,15 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
   place(true, fmt::format("{} in {} dimensions, {}", Formulation::title, Body::dimension, scene.material.law),
         "");
   place(scene.material.plasticity.has_value(), "von Mises plasticity", "no [material.plasticity]");
-  place(Body::dissipates, "JST dissipation", "solver.jst4 = 0");
-  if constexpr (Body::dissipates)
+  const bool consistent = is_consistent(scene);
+  place(consistent, "balance of constant stresses", "solver.scheme = \"thesis\"");
+  place(Body::dissipates, consistent ? "residual dissipation" : "JST dissipation",
+        consistent ? "solver.residual = 0" : "solver.jst4 = 0");
+  if (Body::dissipates && !consistent)
     place(scene.jst2 > 0, "JST's shock term", "solver.jst2 = 0");
   if constexpr (Formulation::evolves_J) {
-    place(Body::dissipates_J, "JST dissipation of J", "solver.jst4_J = 0");
+    place(Body::dissipates_J, consistent ? "residual dissipation of J" : "JST dissipation of J",
+          consistent ? "solver.residual_J = 0" : "solver.jst4_J = 0");
     place(chosen_involution(scene) > 0, "involution penalty", "solver.involution = 0");
   }
   place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");
@@ -119,24 +125,26 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
 
 template <class Body>
 Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
-  auto& [body, step, distance] = assembly;
+  auto& [body, step, length] = assembly;
   Forecast forecast;
   forecast.mass = body.density * sum(body.size(), 0.0, [&](std::int64_t a) { return body.V[a]; });
   forecast.wave_speed = body.wave_speed;
-  forecast.dt = stable_step(body, scene.cfl, distance);
+  forecast.dt = stable_step(body, length);
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
   forecast.bytes_per_particle = bytes_of<Body>(assembly);
-  constexpr int D = Body::dimension;
-  const auto bytes = [&]<class Formulation, class Dissipation>() {
-    forecast.bytes_by_formulation.emplace_back(
-        Formulation::name, bytes_per_particle<Formulation, Dissipation>(
-                               body.neighbours.mean(), body.material->history_bytes(), step.works()));
+  const auto bytes = [&]<class Formulation>() {
+    with_dissipation<Formulation>(scene, [&]<class Dissipation>() {
+      forecast.bytes_by_formulation.emplace_back(
+          Formulation::name, bytes_per_particle<Formulation, Dissipation>(
+                                 body.neighbours.mean(), body.material->history_bytes(), step.works()));
+    });
   };
-  bytes.template operator()<Displacement<D>, NoDissipation>();
-  bytes.template operator()<PF<D>, Jst<D>>();
-  bytes.template operator()<PFJ<D>, JstWithJ<D>>();
-  bytes.template operator()<PFHJ<D>, JstWithJ<D>>();
+  constexpr int D = Body::dimension;
+  bytes.template operator()<Displacement<D>>();
+  bytes.template operator()<PF<D>>();
+  bytes.template operator()<PFJ<D>>();
+  bytes.template operator()<PFHJ<D>>();
   list_models(scene, body, forecast);
 
   // A few real steps on this machine; the first warms the caches.

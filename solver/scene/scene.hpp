@@ -6,7 +6,7 @@
 #include "core/progress.hpp"
 #include "solver/boundary/plane.hpp"
 #include "solver/boundary/wall.hpp"
-#include "solver/physics/jst.hpp"
+#include "solver/physics/plastic_ramp.hpp"
 #include "solver/physics/plasticity/hardening.hpp"
 #include "solver/scene/expression.hpp"
 
@@ -92,19 +92,26 @@ struct ExactSolution {
   Expression pressure; ///< tr sigma / 3, Pa
 };
 
+/// Found by measurement (docs/theory.md).
+constexpr double usual_residual = 1, usual_residual_J = 1;
+
 struct SceneSpec {
   MaterialSpec material;
   std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
-  std::string scheme = "thesis";    ///< thesis
+  std::string scheme = "thesis";    ///< thesis, consistent
   std::string kernel = "wendland";  ///< one of kernel_names()
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
   /// particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
-  int neighbours = 0;                 ///< 0: 30 in space, 14 in the plane
-  std::optional<Kappa4> jst4{};       ///< kappa4 of (3.85); absent: 1/8, none with displacements
-  double jst2 = 0;                    ///< kappa2 of (3.84)
-  std::optional<double> jst4_J{};     ///< kappa4 of the volume map; absent: that of the momentum
-  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 4 jst4_J
+  int neighbours = 0;                ///< 0: 30 in space, 14 in the plane
+  std::optional<PlasticRamp> jst4{}; ///< kappa4 of (3.85); absent: 1/8, none with displacements
+  double jst2 = 0;                   ///< kappa2 of (3.84)
+  std::optional<double> jst4_J{};    ///< kappa4 of the volume map; absent: that of the momentum
+  /// kappa of the residual dissipation, the consistent scheme's; absent: usual_residual, none with
+  /// displacements.
+  std::optional<PlasticRamp> residual{};
+  std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
+  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with JST
   double cfl = 0.3;                   ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s

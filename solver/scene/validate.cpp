@@ -64,6 +64,34 @@ void validate_constants(const MaterialSpec& m, const Where& where) {
   }
 }
 
+/// Each scheme has its own.
+void validate_dissipation(const SceneSpec& scene,
+                          const std::function<std::string(const std::string&)>& where) {
+  const auto belongs_to = [&](const std::string& scheme, const std::string& key, bool given,
+                              const std::string& its_own) {
+    require(!given || scene.scheme == scheme,
+            fmt::format("solver.{} is given, but the scheme is \"{}\"", key, scene.scheme),
+            where("solver." + key),
+            fmt::format("its dissipation goes by solver.{}; or choose scheme = \"{}\"", its_own, scheme));
+  };
+  belongs_to("thesis", "jst4", scene.jst4.has_value(), "residual");
+  belongs_to("thesis", "jst2", scene.jst2 != 0, "residual");
+  belongs_to("thesis", "jst4_J", scene.jst4_J.has_value(), "residual_J");
+  belongs_to("consistent", "residual", scene.residual.has_value(), "jst4");
+  belongs_to("consistent", "residual_J", scene.residual_J.has_value(), "jst4_J");
+
+  const auto ramp = [&](const std::string& key, const std::optional<PlasticRamp>& value, double most) {
+    if (!value)
+      return;
+    for (double kappa : {value->elastic, value->plastic})
+      require_number(key, kappa, kappa >= 0 && kappa <= most, fmt::format("from 0 to {:g}", most), where);
+    require_number(key + ".strain", value->strain, value->strain > 0, "positive", where);
+  };
+  ramp("solver.jst4", scene.jst4, 1);
+  ramp("solver.residual", scene.residual, 4);
+  require_number("solver.jst2", scene.jst2, scene.jst2 >= 0 && scene.jst2 <= 2, "from 0 to 2", where);
+}
+
 } // namespace
 
 void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where) {
@@ -95,19 +123,14 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
   }
 
   name("solver.formulation", scene.formulation, {"auto", "displacement", "pF", "pFJ", "pFHJ"});
-  name("solver.scheme", scene.scheme, {"thesis"});
+  name("solver.scheme", scene.scheme, {"thesis", "consistent"});
   name("solver.kernel", scene.kernel, kernel_names());
   if (scene.support)
     number("solver.support", *scene.support, *scene.support > 1 && *scene.support <= 6,
            "above 1 and at most 6 (kernel radius over the spacing)");
   number("solver.neighbours", scene.neighbours,
          scene.neighbours == 0 || (scene.neighbours >= 8 && scene.neighbours <= 200), "from 8 to 200");
-  if (scene.jst4) {
-    for (double kappa4 : {scene.jst4->elastic, scene.jst4->plastic})
-      number("solver.jst4", kappa4, kappa4 >= 0 && kappa4 <= 1, "from 0 to 1");
-    number("solver.jst4.strain", scene.jst4->strain, scene.jst4->strain > 0, "positive");
-  }
-  number("solver.jst2", scene.jst2, scene.jst2 >= 0 && scene.jst2 <= 2, "from 0 to 2");
+  validate_dissipation(scene, where);
   const std::string formulation = chosen_formulation(scene);
   const bool evolves_J = formulation == "pFJ" || formulation == "pFHJ";
   const auto only_with_J = [&](const std::string& key, const std::optional<double>& value, double most) {
@@ -120,6 +143,7 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     number(key, *value, *value >= 0 && *value <= most, fmt::format("from 0 to {:g}", most));
   };
   only_with_J("solver.jst4_J", scene.jst4_J, 1);
+  only_with_J("solver.residual_J", scene.residual_J, 4);
   only_with_J("solver.involution", scene.involution, 4);
   number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");

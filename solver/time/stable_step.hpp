@@ -3,11 +3,11 @@
 
 namespace tessera::solver {
 
-/// dt = sigma Delta / c_max, (3.93): Delta the smallest particle distance (m), c_max the fastest pressure
-/// wave as the body is deformed (m/s); s.
+/// dt = length / c_max, (3.93): length the way a wave may go in a step (m), sigma times the smallest particle
+/// distance; c_max the fastest pressure wave as the body is deformed (m/s); s.
 template <class Body>
-double stable_step(const Body& body, double cfl, double smallest_distance) {
-  return cfl * smallest_distance / body.fastest_wave();
+double stable_step(const Body& body, double length) {
+  return length / body.fastest_wave();
 }
 
 } // namespace tessera::solver

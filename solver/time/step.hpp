@@ -93,7 +93,7 @@ class Step {
   void conserve(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
     if (projects_) {
       project_momentum<D>(body.R.p, Gamma, body.V);
-      if constexpr (Body::dissipates_J)
+      if constexpr (Body::nets_J)
         project_volume(body.R.J, body.dissipation.rate_J, body.V);
     }
     for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });

@@ -39,7 +39,7 @@ double distance(const std::vector<Mat<D>>& a, const std::vector<Mat<D>>& b) {
 
 template <int D>
 Jst<D> jst(double kappa4, double kappa2 = 0) {
-  return {{}, 0.1, Kappa4::constant(kappa4), kappa2, 1e3};
+  return {{}, {}, 0.1, Kappa4::constant(kappa4), kappa2, 1e3};
 }
 
 } // namespace

@@ -1,0 +1,105 @@
+/// The dissipation a scene asks for.
+#pragma once
+
+#include "core/particle_cloud.hpp"
+#include "solver/operators/laplacian.hpp"
+#include "solver/physics/jst.hpp"
+#include "solver/physics/residual_dissipation.hpp"
+#include "solver/scene/scene.hpp"
+
+namespace tessera::solver {
+
+inline bool is_consistent(const SceneSpec& scene) {
+  return scene.scheme == "consistent";
+}
+
+/// kappa4 of the momentum: with displacements, the baseline, there is none unless asked for.
+template <class Formulation>
+PlasticRamp chosen_kappa4(const SceneSpec& scene) {
+  return scene.jst4.value_or(PlasticRamp::constant(Formulation::evolves_F ? 1.0 / 8 : 0.0));
+}
+
+inline double chosen_kappa4_J(const SceneSpec& scene) {
+  return scene.jst4_J.value_or(scene.jst4.value_or(PlasticRamp{}).elastic);
+}
+
+/// kappa of the residual dissipation, by the same rule.
+template <class Formulation>
+PlasticRamp chosen_residual(const SceneSpec& scene) {
+  return scene.residual.value_or(PlasticRamp::constant(Formulation::evolves_F ? usual_residual : 0.0));
+}
+
+inline double chosen_residual_J(const SceneSpec& scene) {
+  return scene.residual_J.value_or(usual_residual_J);
+}
+
+/// Of the thesis' scheme: on a cloud with a boundary lap lap of J is not symmetric and feeds some fields at up to
+/// 1.5 kappa4 c/Delta; from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md). The residual
+/// dissipation of J feeds nothing.
+inline double chosen_involution(const SceneSpec& scene) {
+  return scene.involution.value_or(is_consistent(scene) ? 0.2 : 4 * chosen_kappa4_J(scene));
+}
+
+/// What a dissipation is made from.
+template <int D>
+struct DissipationGround {
+  const SceneSpec& scene;
+  const ParticleCloud& cloud;
+  const Neighbours& neighbours;
+  const Kernel<D>& kernel;
+  double smallest_distance; ///< m
+  double modulus;           ///< of pressure waves, Pa
+};
+
+template <class Formulation, int D>
+void set_up(NoDissipation&, const DissipationGround<D>&) {}
+
+template <class Formulation, int D>
+void set_up(Jst<D>& jst, const DissipationGround<D>& on) {
+  jst.laplacian = build_laplacian<D>(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
+  jst.delta = on.smallest_distance;
+  jst.kappa4 = chosen_kappa4<Formulation>(on.scene);
+  jst.kappa2 = on.scene.jst2;
+  jst.pressure_floor = 1e-4 * on.modulus; // a shock of a strain below this is none
+}
+
+template <class Formulation, int D>
+void set_up(JstWithJ<D>& jst, const DissipationGround<D>& on) {
+  set_up<Formulation, D>(static_cast<Jst<D>&>(jst), on);
+  jst.kappa4_J = chosen_kappa4_J(on.scene);
+}
+
+template <class Formulation, int D>
+void set_up(ResidualDissipation<D>& residual, const DissipationGround<D>& on) {
+  residual.weigh(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
+  residual.kappa = chosen_residual<Formulation>(on.scene);
+}
+
+template <class Formulation, int D>
+void set_up(ResidualDissipationWithJ<D>& residual, const DissipationGround<D>& on) {
+  set_up<Formulation, D>(static_cast<ResidualDissipation<D>&>(residual), on);
+  residual.kappa_J = chosen_residual_J(on.scene);
+}
+
+/// Calls use.operator()<Dissipation>() with the one the scene asks for.
+template <class Formulation, class Use>
+auto with_dissipation(const SceneSpec& scene, Use&& use) {
+  constexpr int D = Formulation::dimension;
+  if (is_consistent(scene)) {
+    const bool of_p = chosen_residual<Formulation>(scene).any();
+    if constexpr (Formulation::evolves_J) {
+      if (of_p && chosen_residual_J(scene) > 0)
+        return use.template operator()<ResidualDissipationWithJ<D>>();
+    }
+    return of_p ? use.template operator()<ResidualDissipation<D>>()
+                : use.template operator()<NoDissipation>();
+  }
+  const bool of_p = chosen_kappa4<Formulation>(scene).any() || scene.jst2 > 0;
+  if constexpr (Formulation::evolves_J) {
+    if (of_p && (chosen_kappa4_J(scene) > 0 || scene.jst2 > 0))
+      return use.template operator()<JstWithJ<D>>();
+  }
+  return of_p ? use.template operator()<Jst<D>>() : use.template operator()<NoDissipation>();
+}
+
+} // namespace tessera::solver
