@@ -10,9 +10,8 @@ namespace tessera::solver {
 template <int D>
 Neighbours build_graph(const SceneSpec& scene, const ParticleCloud& cloud) {
   // Balanced operators err least with few neighbours (docs/theory.md).
-  const bool consistent = scene.scheme == "consistent";
-  const double lattice_support = consistent ? 1.5 : 2.2;
-  const int usual_neighbours = D == 2 ? 14 : consistent ? 18 : 30;
+  const double lattice_support = scene.scheme == "consistent" ? 1.6 : 2.2;
+  constexpr int usual_neighbours = D == 2 ? 14 : 30;
   const auto supported = [&] {
     if (scene.support)
       return uniform_support(cloud.X, *scene.support * cloud.spacing, cloud.hidden);
