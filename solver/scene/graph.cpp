@@ -9,7 +9,8 @@ namespace tessera::solver {
 
 template <int D>
 Neighbours build_graph(const SceneSpec& scene, const ParticleCloud& cloud) {
-  constexpr double lattice_support = 2.2;
+  // Balanced operators err least with few neighbours (docs/theory.md).
+  const double lattice_support = scene.scheme == "consistent" ? 1.6 : 2.2;
   constexpr int usual_neighbours = D == 2 ? 14 : 30;
   const auto supported = [&] {
     if (scene.support)

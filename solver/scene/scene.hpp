@@ -100,8 +100,8 @@ struct SceneSpec {
   std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
   std::string scheme = "thesis";    ///< thesis, consistent
   std::string kernel = "wendland";  ///< one of kernel_names()
-  /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices, elsewhere each
-  /// particle's own radius that holds `neighbours` of them.
+  /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices (1.6 in the
+  /// scheme "consistent"), elsewhere each particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
   int neighbours = 0;                ///< 0: 30 in space, 14 in the plane
   std::optional<PlasticRamp> jst4{}; ///< kappa4 of (3.85); absent: 1/8, none with displacements

@@ -71,7 +71,7 @@ void validate_dissipation(const SceneSpec& scene,
                               const std::string& its_own) {
     require(!given || scene.scheme == scheme,
             fmt::format("solver.{} is given, but the scheme is \"{}\"", key, scene.scheme),
-            where("solver." + key),
+            where(fmt::format("solver.{}", key)),
             fmt::format("its dissipation goes by solver.{}; or choose scheme = \"{}\"", its_own, scheme));
   };
   belongs_to("thesis", "jst4", scene.jst4.has_value(), "residual");
@@ -85,7 +85,7 @@ void validate_dissipation(const SceneSpec& scene,
       return;
     for (double kappa : {value->elastic, value->plastic})
       require_number(key, kappa, kappa >= 0 && kappa <= most, fmt::format("from 0 to {:g}", most), where);
-    require_number(key + ".strain", value->strain, value->strain > 0, "positive", where);
+    require_number(fmt::format("{}.strain", key), value->strain, value->strain > 0, "positive", where);
   };
   ramp("solver.jst4", scene.jst4, 1);
   ramp("solver.residual", scene.residual, 4);

@@ -63,8 +63,8 @@ double spectral_radius(Body& body) {
   return radius;
 }
 
-/// The longest way, m, a pressure wave may go in a step of Heun's method: real eigenvalues -r are stable up to
-/// 2 / r, and four fifths of it are taken. The radius grows with the wave speeds as the body deforms.
+/// The longest way, m, a pressure wave may go in a step of Heun's method: real eigenvalues -r are stable up
+/// to 2 / r, and four fifths of it are taken. The radius grows with the wave speeds as the body deforms.
 template <class Body>
 double stable_length(Body& body) {
   return 0.8 * 2 / spectral_radius(body) * body.wave_speed;

@@ -39,7 +39,12 @@ double distance(const std::vector<Mat<D>>& a, const std::vector<Mat<D>>& b) {
 
 template <int D>
 Jst<D> jst(double kappa4, double kappa2 = 0) {
-  return {{}, {}, 0.1, Kappa4::constant(kappa4), kappa2, 1e3};
+  Jst<D> dissipation;
+  dissipation.delta = 0.1;
+  dissipation.kappa4 = Kappa4::constant(kappa4);
+  dissipation.kappa2 = kappa2;
+  dissipation.pressure_floor = 1e3;
+  return dissipation;
 }
 
 } // namespace

@@ -82,7 +82,9 @@ TYPED_TEST(Residual, SparesLinearMomentaAndRotations) {
 TYPED_TEST(Residual, ConservesMomentumAndOnlyTakesEnergy) {
   constexpr int D = TypeParam::value;
   const ParticleCloud cloud = irregular_block<D>();
-  auto body = make_body<PF<D>>(cloud, residual<D>(1));
+  auto body = make_body<PF<D>>(cloud, residual<D>(1), [&](auto& parts) {
+    balance_constant_stress<D>(parts.gradient, cloud.X, cloud.V, cloud.A, parts.neighbours);
+  });
   std::mt19937_64 random(4);
   for (int trial = 0; trial < 20; ++trial) {
     stir(body, random);
@@ -167,7 +169,9 @@ TYPED_TEST(Residual, DisplacementsBearItToo) {
   stir(mixed, again);
   plain.rates();
   mixed.rates();
-  EXPECT_EQ(dissipated(plain), dissipated(mixed));
+  const auto one = dissipated(plain), other = dissipated(mixed);
+  for (std::size_t a = 0; a < one.size(); ++a)
+    EXPECT_LT((one[a] - other[a]).norm(), 1e-13 * one[a].norm()) << a;
 }
 
 TYPED_TEST(Residual, SpectralRadiusOfStrongDissipationIsThatOfDissipationAlone) {

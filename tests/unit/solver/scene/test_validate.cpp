@@ -117,6 +117,27 @@ TEST(Validate, RefusesHardeningThatIsNone) {
   EXPECT_NE(power(159e6, std::nan(""), 0.27), "");
 }
 
+TEST(Validate, EachSchemeHasItsOwnDissipation) {
+  const auto consistent = [](auto change) {
+    return message([&](SceneSpec& s) {
+      s.scheme = "consistent";
+      s.jst4.reset();
+      change(s);
+    });
+  };
+  EXPECT_EQ(consistent([](SceneSpec& s) { s.residual = PlasticRamp{1, 0.1, 0.5}; }), "");
+  EXPECT_EQ(consistent([](SceneSpec& s) { s.jst4 = Kappa4{}; }),
+            "solver.jst4 is given, but the scheme is \"consistent\", case.toml:solver.jst4, its dissipation "
+            "goes by solver.residual; or choose scheme = \"thesis\"");
+  EXPECT_NE(consistent([](SceneSpec& s) { s.jst2 = 1; }), "");
+  EXPECT_NE(consistent([](SceneSpec& s) { s.residual = PlasticRamp::constant(5); }), "");
+  EXPECT_NE(consistent([](SceneSpec& s) { s.residual = PlasticRamp{1, 1, 0}; }), "");
+  EXPECT_NE(consistent([](SceneSpec& s) { s.residual_J = 1; }), ""); // J is not evolved
+  EXPECT_EQ(message([](SceneSpec& s) { s.residual = PlasticRamp{}; }),
+            "solver.residual is given, but the scheme is \"thesis\", case.toml:solver.residual, its "
+            "dissipation goes by solver.jst4; or choose scheme = \"consistent\"");
+}
+
 TEST(Validate, RefusesImpossibleValues) {
   const double nan = std::nan("");
   EXPECT_NE(message([](SceneSpec& s) { s.material.density = -1; }), "");
