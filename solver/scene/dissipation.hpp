@@ -33,9 +33,9 @@ inline double chosen_residual_J(const SceneSpec& scene) {
   return scene.residual_J.value_or(usual_residual_J);
 }
 
-/// Of the thesis' scheme: on a cloud with a boundary lap lap of J is not symmetric and feeds some fields at up to
-/// 1.5 kappa4 c/Delta; from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md). The residual
-/// dissipation of J feeds nothing.
+/// Of the thesis' scheme: on a cloud with a boundary lap lap of J is not symmetric and feeds some fields at
+/// up to 1.5 kappa4 c/Delta; from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md). The
+/// residual dissipation of J feeds nothing.
 inline double chosen_involution(const SceneSpec& scene) {
   return scene.involution.value_or(is_consistent(scene) ? 0.2 : 4 * chosen_kappa4_J(scene));
 }

@@ -111,8 +111,9 @@ struct SceneSpec {
   /// displacements.
   std::optional<PlasticRamp> residual{};
   std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
-  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with JST
-  double cfl = 0.3;                   ///< sigma of (3.93)
+  std::optional<double>
+      involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with JST
+  double cfl = 0.3; ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s
   std::vector<InitialCondition> initial;
