@@ -94,7 +94,8 @@ void read_solver(Table solver, solver::SceneSpec& scene) {
   scene.residual = read_ramp(solver, "residual");
   scene.residual_J = solver.optional_number("residual_J");
   scene.involution = solver.optional_number("involution");
-  scene.cfl = solver.number_or("cfl", scene.cfl);
+  scene.integrator = solver.text_or("integrator", scene.integrator);
+  scene.cfl = solver.optional_number("cfl");
   scene.momentum_projection = solver.boolean_or("momentum_projection", scene.momentum_projection);
   scene.end_time = solver.number("end_time");
   solver.finish();

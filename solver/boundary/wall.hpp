@@ -118,10 +118,10 @@ class Wall {
   /// Penalty, on the rates R of the momenta (N/m^3), which must hold all other forces already: a particle
   /// behind the surface is pushed out by spring times depth and braked by a dashpot that makes its rebound
   /// the restitution's, together never a pull. Friction is at most its coefficient times that force, and no
-  /// more than brings the tangential momentum to zero within dt. Adds dt/2 times the force, what a stage of
-  /// Heun's method gives, to `impulse`.
+  /// more than brings the tangential momentum to zero within dt. The same is added to `force`. `share` is the
+  /// part of dt that it acts for, which the report counts.
   void push(std::span<const Vec<D>> x, std::span<const Vec<D>> p, double density, double time, double dt,
-            std::span<Vec<D>> R, std::span<Vec<D>> impulse) {
+            double share, std::span<Vec<D>> R, std::span<Vec<D>> force) {
     if (law_.method != ContactMethod::penalty)
       return;
     const double damping = damping_ * std::sqrt(law_.spring * density);
@@ -134,10 +134,11 @@ class Wall {
         return;
       const Vec<D> n = gap.normal.template head<D>();
       const Vec<D> slip = p[a] - density * velocity_;
-      const double force = std::max(0.0, -law_.spring * gap.distance - damping * n.dot(slip) / density);
-      const Vec<D> drag = friction_on(slip + dt * R[a], n, dt * force) / dt;
-      R[a] += force * n + drag;
-      note(a, 0.5 * dt * force * n, 0.5 * dt * drag, impulse[a]);
+      const double push = std::max(0.0, -law_.spring * gap.distance - damping * n.dot(slip) / density);
+      const Vec<D> drag = friction_on(slip + dt * R[a], n, dt * push) / dt;
+      R[a] += push * n + drag;
+      force[a] += push * n + drag;
+      note(a, share * dt * push * n, share * dt * drag);
     });
   }
 
@@ -251,7 +252,8 @@ class Wall {
   void strike(std::int64_t a, const Vec<D>& n, double j, Vec<D>& p, const Moment& now, Vec<D>& impulse) {
     const Vec<D> drag = friction_on(p - now.tool, n, j);
     p += j * n + drag;
-    note(a, now.share * j * n, now.share * drag, impulse);
+    impulse += now.share * (j * n + drag);
+    note(a, now.share * j * n, now.share * drag);
   }
 
   /// The tangential impulse beside a normal one of j on a particle of this momentum relative to the tool.
@@ -263,8 +265,7 @@ class Wall {
     return size > 0 ? Vec<D>(-std::min(law_.friction * j / size, 1.0) * along) : Vec<D>(Vec<D>::Zero());
   }
 
-  void note(std::int64_t a, const Vec<D>& normal, const Vec<D>& tangential, Vec<D>& impulse) {
-    impulse += normal + tangential;
+  void note(std::int64_t a, const Vec<D>& normal, const Vec<D>& tangential) {
     pressed_[a] += normal;
     if (law_.friction > 0)
       dragged_[a] += tangential;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,6 +45,7 @@ class Body {
   static constexpr bool dissipates_J = Dissipation::of_J;
   static_assert(Formulation::evolves_J || !dissipates_J);
   static constexpr bool nets_J = Dissipation::nets_J;
+  static constexpr bool looks_at_gradient = Dissipation::looks_at_gradient;
   static constexpr bool finds_gradient = Formulation::evolves_F || Dissipation::looks_at_gradient;
 
   /// At rest at the reference positions.
@@ -70,7 +72,7 @@ class Body {
   void deform(std::vector<Vec<D>> x) {
     U.x = std::move(x);
     for_each(size(), [&](std::int64_t a) {
-      const Mat<D> F = gradient_of_x(a);
+      const Mat<D> F = gradient_of(U.x, a);
       if constexpr (Formulation::evolves_F)
         U.F[a] = F;
       if constexpr (Formulation::evolves_H)
@@ -85,6 +87,66 @@ class Body {
   void rates() {
     strain_rates();
     momentum_rates();
+  }
+
+  /// The first sweep over the edges gathers v for G and what the dissipation wants first.
+  void strain_rates() {
+    for_each(size(), [&](std::int64_t a) {
+      Mat<D> G = Mat<D>::Zero();
+      if constexpr (finds_gradient)
+        G = -U.p[a] * gradient.s[a].transpose();
+      auto rough = dissipation.begin_first(*this, a);
+      if constexpr (finds_gradient || Dissipation::sweeps_first)
+        for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+          const std::int32_t b = neighbours.column[e];
+          const Vec<D>& p_b = U.p[b];
+          if constexpr (finds_gradient)
+            for (int c = 0; c < D; ++c)
+              G.col(c) += gradient.w[e][c] * p_b;
+          dissipation.add_first(rough, *this, e, b);
+        }
+      R.x[a] = U.p[a] / density;
+      if constexpr (Formulation::evolves_F)
+        R.F[a] = G / density;
+      else if constexpr (finds_gradient)
+        gradient_of_v_[a] = G / density;
+      dissipation.end_first(rough, a);
+      map_rates(a);
+    });
+  }
+
+  /// dH/dt and dJ/dt of U by the dF/dt that is known, without dissipation.
+  void map_rates() {
+    for_each(size(), [&](std::int64_t a) { map_rates(a); });
+  }
+  void map_rates(std::int64_t a) {
+    if constexpr (Formulation::evolves_J) {
+      const Mat3 F = embed(U.F[a]), G = embed_rate(R.F[a]);
+      const Strain of_F = Strain::of(F);
+      const double pull = involution_ * wave[a];
+      if constexpr (Formulation::evolves_H) {
+        R.H[a] = cross(F, G) + pull * (of_F.H - U.H[a]);
+        R.J[a] = U.H[a].cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
+      } else {
+        R.J[a] = of_F.H.cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
+      }
+    }
+  }
+
+  /// The second sweep gathers P for T and what the dissipation goes by.
+  void momentum_rates() {
+    for_each(size(), [&](std::int64_t a) {
+      Vec<D> divergence = P[a] * gradient.s[a];
+      auto rough = dissipation.begin_second(*this, a);
+      for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+        const std::int32_t b = neighbours.column[e];
+        divergence += P[b] * gradient.t[e];
+        dissipation.add_second(rough, *this, a, e, b);
+      }
+      T[a] = divergence;
+      R.p[a] = divergence;
+      dissipation.end_second(rough, *this, a);
+    });
   }
 
   /// P of U with the histories as they stand: stresses within a step. Throws Breakdown.
@@ -107,6 +169,14 @@ class Body {
   /// Largest pressure wave speed as the body is deformed, (3.93), m/s.
   double fastest_wave() const {
     return max_of(size(), 0.0, [&](std::int64_t a) { return wave[a]; });
+  }
+
+  /// Of any vectors u, one a particle.
+  Mat<D> gradient_of(std::span<const Vec<D>> u, std::int64_t a) const {
+    Mat<D> grad = -u[a] * gradient.s[a].transpose();
+    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e)
+      grad += u[neighbours.column[e]] * gradient.w[e].transpose();
+    return grad;
   }
 
   Vec<D> velocity(std::int64_t a) const { return U.p[a] / density; }
@@ -141,79 +211,15 @@ class Body {
   std::vector<double> wave; ///< pressure wave speed at the last commit, (3.93), m/s
 
  private:
-  Mat<D> gradient_of_x(std::int64_t a) const {
-    Mat<D> F = -U.x[a] * gradient.s[a].transpose();
-    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e)
-      F += U.x[neighbours.column[e]] * gradient.w[e].transpose();
-    return F;
-  }
-
   void check() {
     if constexpr (!Formulation::evolves_F)
-      for_each(size(), [&](std::int64_t a) { gradient_of_x_[a] = gradient_of_x(a); });
+      for_each(size(), [&](std::int64_t a) { gradient_of_x_[a] = gradient_of(U.x, a); });
     for_each(size(), [&](std::int64_t a) {
       double J = strains().F[a].determinant();
       if constexpr (Formulation::evolves_J)
         J = std::min(J, U.J[a]);
       if (!(J > 0) || !std::isfinite(J) || !U.p[a].allFinite())
         throw Breakdown{a, J};
-    });
-  }
-
-  /// One sweep over the edges gathers v for G and what the dissipation wants first.
-  void strain_rates() {
-    for_each(size(), [&](std::int64_t a) {
-      Mat<D> G = Mat<D>::Zero();
-      if constexpr (finds_gradient)
-        G = -U.p[a] * gradient.s[a].transpose();
-      auto rough = dissipation.begin_first(*this, a);
-      if constexpr (finds_gradient || Dissipation::sweeps_first)
-        for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-          const std::int32_t b = neighbours.column[e];
-          const Vec<D>& p_b = U.p[b];
-          if constexpr (finds_gradient)
-            for (int c = 0; c < D; ++c)
-              G.col(c) += gradient.w[e][c] * p_b;
-          dissipation.add_first(rough, *this, e, b);
-        }
-      R.x[a] = U.p[a] / density;
-      if constexpr (Formulation::evolves_F)
-        R.F[a] = G / density;
-      else if constexpr (finds_gradient)
-        gradient_of_v_[a] = G / density;
-      dissipation.end_first(rough, a);
-      map_rates(a);
-    });
-  }
-
-  /// dH/dt and dJ/dt at a particle whose dF/dt is known.
-  void map_rates(std::int64_t a) {
-    if constexpr (Formulation::evolves_J) {
-      const Mat3 F = embed(U.F[a]), G = embed_rate(R.F[a]);
-      const Strain of_F = Strain::of(F);
-      const double pull = involution_ * wave[a];
-      if constexpr (Formulation::evolves_H) {
-        R.H[a] = cross(F, G) + pull * (of_F.H - U.H[a]);
-        R.J[a] = U.H[a].cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
-      } else {
-        R.J[a] = of_F.H.cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
-      }
-    }
-  }
-
-  /// The second sweep gathers P for T and what the dissipation goes by.
-  void momentum_rates() {
-    for_each(size(), [&](std::int64_t a) {
-      Vec<D> divergence = P[a] * gradient.s[a];
-      auto rough = dissipation.begin_second(*this, a);
-      for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-        const std::int32_t b = neighbours.column[e];
-        divergence += P[b] * gradient.t[e];
-        dissipation.add_second(rough, *this, a, e, b);
-      }
-      T[a] = divergence;
-      R.p[a] = divergence;
-      dissipation.end_second(rough, *this, a);
     });
   }
 

@@ -5,6 +5,7 @@
 #include "solver/physics/strain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 
 namespace tessera::solver {
@@ -54,12 +55,43 @@ double step_wave_modulus(const L& law, const Strain& strain) {
   }
 }
 
-/// A law that also flows: equivalent_plastic_strain(history) and plastic_work(history), J/m^3.
+/// A law that also flows: elastic_piola(strain, history), Pa, as if it did not;
+/// equivalent_plastic_strain(history) and plastic_work(history), J/m^3.
 template <class L>
-concept PlasticLaw = ConstitutiveLaw<L> && requires(const L law, const typename L::History& history) {
+concept PlasticLaw = ConstitutiveLaw<L> &&
+    requires(const L law, const Strain& strain, const typename L::History& history) {
+  { law.elastic_piola(strain, history) } -> std::same_as<Mat3>;
   { law.equivalent_plastic_strain(history) } -> std::same_as<double>;
   { law.plastic_work(history) } -> std::same_as<double>;
 };
+
+/// First Piola-Kirchhoff stress, Pa, of a strain that leads to no further flow.
+template <ConstitutiveLaw L>
+Mat3 elastic_piola(const L& law, const Strain& strain, const typename L::History& history) {
+  if constexpr (PlasticLaw<L>) {
+    return law.elastic_piola(strain, history);
+  } else {
+    typename L::History same = history;
+    return law.piola(strain, same);
+  }
+}
+
+/// Its change, Pa, by a small change of the strain with the displacement gradient grad_u, by central
+/// differences; H and J change with F.
+template <ConstitutiveLaw L>
+Mat3 differential(const L& law, const typename L::History& history, const Strain& strain, const Mat3& grad_u) {
+  const double size = grad_u.norm();
+  if (size == 0)
+    return Mat3::Zero();
+  const Mat3 F_grad_u = cross(strain.F, grad_u);
+  const double H_grad_u = strain.H.cwiseProduct(grad_u).sum();
+  const double small = 1e-6 * std::sqrt(squared_stretches(strain.F)[0]) / size;
+  const auto piola = [&](double h) {
+    return elastic_piola(law, {strain.F + h * grad_u, strain.H + h * F_grad_u, strain.J + h * H_grad_u},
+                         history);
+  };
+  return (piola(small) - piola(-small)) / (2 * small);
+}
 
 /// Zero for elastic laws.
 template <ConstitutiveLaw L>

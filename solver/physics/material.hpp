@@ -25,6 +25,9 @@ class Material {
   /// The step is over: the histories advance to the strains; P (Pa) and the moduli of the fastest waves now,
   /// rho0 c^2 (Pa), follow as the step is taken from them.
   virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) = 0;
+  /// dP (Pa) of small changes of the strains by grad u (-), about the strains and without further flow.
+  virtual void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u,
+                             std::span<Mat<D>> dP) const = 0;
   virtual ElasticConstants linearised() const = 0;
 
   /// Of particle a, for those who look at the body; P of all nine components in the plane too.
@@ -53,6 +56,13 @@ class MaterialOf final : public Material<D> {
       const Strain strain = strains[a];
       P[a] = law_.piola(strain, history_[a]).template topLeftCorner<D, D>();
       wave_moduli[a] = step_wave_modulus(law_, strain);
+    });
+  }
+
+  void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u,
+                     std::span<Mat<D>> dP) const override {
+    for_each(static_cast<std::int64_t>(dP.size()), [&](std::int64_t a) {
+      dP[a] = differential(law_, history_[a], strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
     });
   }
 

@@ -88,14 +88,20 @@ template <int D>
 struct ResidualDissipationWithJ : ResidualDissipation<D> {
   using Base = ResidualDissipation<D>;
   static constexpr bool of_J = true, sweeps_first = true;
-  static constexpr std::size_t particle_bytes = Base::particle_bytes + sizeof(Vec<D>);
+  /// J and its gradient (1/m), of one time: between the sweeps a step may advance the body's own.
+  struct Seen {
+    Vec<D> grad;
+    double J;
+  };
 
-  double kappa_J = 0;           ///< of the volume map
-  std::vector<Vec<D>> grad_J{}; ///< 1/m
+  static constexpr std::size_t particle_bytes = Base::particle_bytes + sizeof(Seen);
+
+  double kappa_J = 0;       ///< of the volume map
+  std::vector<Seen> seen{}; ///< in the last first sweep
 
   void allocate(std::size_t n) {
     Base::allocate(n);
-    grad_J.assign(n, Vec<D>::Zero());
+    seen.assign(n, {Vec<D>::Zero(), 1});
   }
 
   struct Sum {
@@ -104,14 +110,14 @@ struct ResidualDissipationWithJ : ResidualDissipation<D> {
   };
 
   template <class Body>
-  Vec<D> begin_first(const Body& body, std::int64_t a) const {
-    return -body.U.J[a] * body.gradient.s[a];
+  Seen begin_first(const Body& body, std::int64_t a) const {
+    return {-body.U.J[a] * body.gradient.s[a], body.U.J[a]};
   }
   template <class Body>
-  void add_first(Vec<D>& grad, const Body& body, std::int64_t e, std::int32_t b) const {
-    grad += body.U.J[b] * body.gradient.w[e];
+  void add_first(Seen& at, const Body& body, std::int64_t e, std::int32_t b) const {
+    at.grad += body.U.J[b] * body.gradient.w[e];
   }
-  void end_first(const Vec<D>& grad, std::int64_t a) { grad_J[a] = grad; }
+  void end_first(const Seen& at, std::int64_t a) { seen[a] = at; }
 
   template <class Body>
   Sum begin_second(const Body&, std::int64_t) const {
@@ -122,7 +128,7 @@ struct ResidualDissipationWithJ : ResidualDissipation<D> {
     Base::add_second(sum.of_p, body, a, e, b);
     const double q = 0.5 * (body.wave[a] + body.wave[b]) * this->weight[e];
     const Vec<D> R = this->X[b] - this->X[a];
-    sum.J += q * (body.U.J[b] - body.U.J[a] - 0.5 * (grad_J[a] + grad_J[b]).dot(R));
+    sum.J += q * (seen[b].J - seen[a].J - 0.5 * (seen[a].grad + seen[b].grad).dot(R));
   }
   template <class Body>
   void end_second(const Sum& sum, Body& body, std::int64_t a) {

@@ -10,11 +10,14 @@
 #include "solver/scene/graph.hpp"
 #include "solver/scene/make_material.hpp"
 #include "solver/scene/scene.hpp"
-#include "solver/time/stable_length.hpp"
-#include "solver/time/step.hpp"
+#include "solver/time/heun.hpp"
+#include "solver/time/step_limit.hpp"
+#include "solver/time/verlet.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace tessera::solver {
@@ -23,9 +26,27 @@ namespace tessera::solver {
 template <class Body>
 struct Assembly {
   Body body;
-  Step<Body> step;
-  double step_length; ///< the way the fastest wave may go in a step, m
+  std::unique_ptr<Step<Body>> step;
+  StepLimit<Body> limit;
 };
+
+/// The method a scene asks for.
+template <class Body>
+std::unique_ptr<Step<Body>> make_step(const SceneSpec& scene, Conditions<Body::dimension> conditions) {
+  if (chosen_integrator(scene) == "verlet")
+    return std::make_unique<Verlet<Body>>(std::move(conditions), scene.momentum_projection);
+  return std::make_unique<Heun<Body>>(std::move(conditions), scene.momentum_projection);
+}
+
+/// Verlet's step is a share of the critical one. Heun's goes by (3.93); where the dissipation of small cells
+/// may ask for less, a share of the critical step bounds it too.
+template <class Body>
+StepLimit<Body> make_limit(const SceneSpec& scene, double smallest) {
+  constexpr double none = std::numeric_limits<double>::infinity(), enough = 0.8;
+  if (chosen_integrator(scene) == "verlet")
+    return {none, chosen_cfl(scene)};
+  return {chosen_cfl(scene) * smallest, Body::looks_at_gradient ? enough : 0};
+}
 
 /// Calls use(assembly): a body is built where it stays.
 template <class Formulation, class Dissipation, class Use>
@@ -52,10 +73,8 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
       ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material), std::move(graph),
                 std::move(gradient), std::move(dissipation),
                 Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
-      Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection),
-      scene.cfl * smallest};
-  if constexpr (Dissipation::looks_at_gradient)
-    assembly.step_length = std::min(assembly.step_length, stable_length(assembly.body));
+      make_step<ThisBody>(scene, make_conditions<D>(scene, cloud, modulus, smallest)),
+      make_limit<ThisBody>(scene, smallest)};
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
 }
@@ -93,7 +112,7 @@ template <class Body>
 double bytes_of(const Assembly<Body>& assembly) {
   const Body& body = assembly.body;
   return bytes_per_particle<typename Body::Formulation, decltype(body.dissipation)>(
-      body.neighbours.mean(), body.material->history_bytes(), assembly.step.works());
+      body.neighbours.mean(), body.material->history_bytes(), assembly.step->works());
 }
 
 } // namespace tessera::solver

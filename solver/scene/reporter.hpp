@@ -23,7 +23,7 @@ class Reporter {
       : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly) {
     for (const Probe& probe : scene.probes)
       probes_.emplace_back(probe, cloud);
-    if (!assembly.step.walls().empty())
+    if (!assembly.step->walls().empty())
       for (const Vec3& A : cloud.A)
         boundary_area_.push_back(A.norm());
     if (outputs.history_columns)
@@ -36,7 +36,7 @@ class Reporter {
     angular_scale_ = sum(body.size(), 0.0, [&](std::int64_t a) {
       return body.V[a] * body.U.p[a].norm() * (cloud.X[a] - centre).norm();
     });
-    total_start_ = total(energies(body, assembly.step));
+    total_start_ = total(energies(body, *assembly.step));
     report(0, 0, 0);
     frame(0, 0);
   }
@@ -83,7 +83,7 @@ class Reporter {
  private:
   std::vector<std::string> columns() const {
     std::vector<std::string> names(history_columns.begin(), history_columns.end());
-    for (const auto& wall : assembly_.step.walls())
+    for (const auto& wall : assembly_.step->walls())
       for (const char* what : {"_force_x_N", "_force_y_N", "_force_z_N", "_friction_N", "_pressure_Pa"})
         names.push_back(wall.name() + what);
     for (const Probe& probe : scene_.probes)
@@ -104,7 +104,7 @@ class Reporter {
 
   void report(double time, std::int64_t step, double dt) {
     last_row_ = step;
-    energy_ = energies(assembly_.body, assembly_.step);
+    energy_ = energies(assembly_.body, *assembly_.step);
     largest_ = std::max(largest_, energy_.kinetic + energy_.internal + energy_.plastic);
     const double imbalance = std::abs(total(energy_) - total_start_);
     energy_.balance_error = largest_ > 0 ? imbalance / largest_ : 0;
@@ -135,7 +135,7 @@ class Reporter {
   /// What the walls did since the last row: mean forces, and the largest pressure on a particle's own
   /// surface.
   void contact(double time, std::vector<double>& row) {
-    for (auto& wall : assembly_.step.walls()) {
+    for (auto& wall : assembly_.step->walls()) {
       const auto report = wall.report(assembly_.body.V, boundary_area_, time - contact_since_);
       Vec3 force = Vec3::Zero();
       force.template head<Body::dimension>() = report.force;

@@ -35,6 +35,17 @@ std::string chosen_formulation(const SceneSpec& scene) {
   return linearised(scene.material).poisson() > nearly_incompressible - 1e-9 ? PFJ<3>::name : PF<3>::name;
 }
 
+std::string chosen_integrator(const SceneSpec& scene) {
+  if (scene.integrator != "auto")
+    return scene.integrator;
+  return scene.scheme == "thesis" ? "heun" : "verlet";
+}
+
+double chosen_cfl(const SceneSpec& scene) {
+  constexpr double heun = 0.3, verlet = 0.8;
+  return scene.cfl.value_or(chosen_integrator(scene) == "heun" ? heun : verlet);
+}
+
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress) {
   return with_formulation(scene, cloud, [&]<class Formulation>() {
     return run_formulation<Formulation>(scene, cloud, outputs, progress);

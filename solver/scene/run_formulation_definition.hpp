@@ -6,7 +6,6 @@
 #include "solver/scene/assemble.hpp"
 #include "solver/scene/reporter.hpp"
 #include "solver/scene/run_formulation.hpp"
-#include "solver/time/stable_step.hpp"
 
 #include <fmt/format.h>
 
@@ -23,8 +22,10 @@ inline double seconds_now() {
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                      Progress& progress, Assembly<Body>& assembly) {
-  auto& [body, step, length] = assembly;
-  double dt = stable_step(body, length);
+  auto& body = assembly.body;
+  auto& step = *assembly.step;
+  auto& limit = assembly.limit;
+  double dt = limit(body);
   step.start(body, dt);
   Reporter<Body> reporter(scene, cloud, outputs, assembly);
 
@@ -42,7 +43,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   const double start = seconds_now();
   progress.begin("solve", scene.end_time);
   while (time < scene.end_time) {
-    dt = stable_step(body, length);
+    dt = limit(body);
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
     const bool last = time + dt >= scene.end_time;
@@ -125,11 +126,13 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
 
 template <class Body>
 Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
-  auto& [body, step, length] = assembly;
+  auto& body = assembly.body;
+  auto& step = *assembly.step;
+  auto& limit = assembly.limit;
   Forecast forecast;
   forecast.mass = body.density * sum(body.size(), 0.0, [&](std::int64_t a) { return body.V[a]; });
   forecast.wave_speed = body.wave_speed;
-  forecast.dt = stable_step(body, length);
+  forecast.dt = limit(body);
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
   forecast.bytes_per_particle = bytes_of<Body>(assembly);

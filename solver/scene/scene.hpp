@@ -113,7 +113,9 @@ struct SceneSpec {
   std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
   std::optional<double>
       involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with JST
-  double cfl = 0.3; ///< sigma of (3.93)
+  std::string integrator = "auto"; ///< heun, verlet; auto: heun with the scheme "thesis", else verlet
+  /// sigma of (3.93) with heun, the share of the critical step with verlet; absent: 0.3, 0.8
+  std::optional<double> cfl{};
   bool momentum_projection = true;
   double end_time = 0; ///< s
   std::vector<InitialCondition> initial;
@@ -191,6 +193,9 @@ struct Outputs {
 
 /// The formulation a scene is run in: "auto" means {p, F}, and {p, F, J} from a Poisson's ratio of 0.49 on.
 std::string chosen_formulation(const SceneSpec& scene);
+
+std::string chosen_integrator(const SceneSpec& scene);
+double chosen_cfl(const SceneSpec& scene);
 
 /// Checks that needs no cloud: ranges and names. `where(key)` turns a key such as "material.poisson" into
 /// file:line:column for the message. InputError.

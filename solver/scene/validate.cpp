@@ -145,7 +145,9 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
   only_with_J("solver.jst4_J", scene.jst4_J, 1);
   only_with_J("solver.residual_J", scene.residual_J, 4);
   only_with_J("solver.involution", scene.involution, 4);
-  number("solver.cfl", scene.cfl, scene.cfl > 0 && scene.cfl <= 1, "above 0 and at most 1");
+  name("solver.integrator", scene.integrator, {"auto", "heun", "verlet"});
+  if (scene.cfl)
+    number("solver.cfl", *scene.cfl, *scene.cfl > 0 && *scene.cfl <= 1, "above 0 and at most 1");
   number("solver.end_time", scene.end_time, scene.end_time > 0, "positive (s)");
 
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {

@@ -1,41 +1,24 @@
-/// One step of the mixed scheme: stages, momentum projection, conditions, and the ledger of work done.
+/// What a step is, whatever its method: conditions from outside, momentum projection, the ledger of work.
 #pragma once
 
-#include "solver/boundary/held_velocity.hpp"
-#include "solver/boundary/loads.hpp"
-#include "solver/boundary/wall.hpp"
+#include "solver/boundary/conditions.hpp"
 #include "solver/physics/body.hpp"
 #include "solver/time/momentum_projection.hpp"
-#include "solver/time/runge_kutta.hpp"
 
-#include <memory>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace tessera::solver {
-
-/// What acts on a body from outside.
-template <int D>
-struct Conditions {
-  std::vector<Vec3> X; ///< reference positions, m
-  HeldVelocities<D> held;
-  std::vector<std::unique_ptr<Load<D>>> loads;
-  std::vector<Wall<D>> walls;
-};
 
 template <class Body>
 class Step {
  public:
   static constexpr int D = Body::dimension;
 
-  Step(Conditions<D> conditions, bool momentum_projection)
-      : outside_(std::move(conditions)), projects_(momentum_projection),
-        works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()) {
-    for (const Wall<D>& wall : outside_.walls)
-      pushes_ |= wall.law().method == ContactMethod::penalty;
-  }
+  virtual ~Step() = default;
 
-  double dissipated() const { return dissipated_; } ///< J, by JST and the momentum projection
+  double dissipated() const { return dissipated_; } ///< J, by dissipation and the momentum projection
   double external() const { return external_; }     ///< J, work done on the body from outside
 
   bool works() const { return works_; } ///< whether anything outside may work on the body
@@ -46,39 +29,21 @@ class Step {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
     if (works_)
       external_impulse_.assign(body.V.size(), Vec<D>::Zero());
-    if (!outside_.walls.empty())
-      place_ = body.U.x;
-    if (!outside_.loads.empty())
+    if (loaded_)
       force_.assign(body.V.size(), Vec<D>::Zero());
     outside_.held.apply(body.U.p, body.density, 0, 0, external_impulse_);
     before_ = body.U;
-    hold(body, body.U.x, 0, dt);
+    limit(body, body.U.x, 0, dt);
+    hold(body, 0);
     account(body);
+    prepare(body, dt);
   }
 
   /// U^n to U^(n+1), from `time` over dt. On Breakdown the body is back at U^n and the exception goes on.
   void operator()(Body& body, double time, double dt) {
-    auto& U = body.U;
-    auto& R = body.R;
-    before_ = U;
+    before_ = body.U;
     try {
-      body.rates();
-      conserve(body, U.x, dt);
-      load(body, U.x, time, dt);
-      advance(U, dt, R);
-      hold_middle(body, time, dt);
-      body.stresses();
-
-      body.rates();
-      if (pushes_)
-        place_ = U.x;
-      average(U.x, before_.x, dt, R.x);
-      conserve(body, U.x, dt);
-      load(body, place_, time + dt, dt);
-      average(U.p, before_.p, dt, R.p);
-      average_strains(U, before_, dt, R);
-      hold(body, U.x, time + dt, dt);
-      body.commit();
+      take(body, time, dt);
     } catch (const Breakdown&) {
       body.U = before_;
       body.stresses();
@@ -87,48 +52,71 @@ class Step {
     account(body);
   }
 
- private:
+ protected:
+  Step(Conditions<D> conditions, bool momentum_projection)
+      : outside_(std::move(conditions)), projects_(momentum_projection),
+        works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()),
+        pushed_(std::any_of(
+            outside_.walls.begin(), outside_.walls.end(),
+            [](const Wall<D>& wall) { return wall.law().method == ContactMethod::penalty; })),
+        loaded_(pushed_ || !outside_.loads.empty()) {}
+
+  /// What the method needs before its first step.
+  virtual void prepare(Body& body, double dt) = 0;
+  /// U^n to U^(n+1), histories and all.
+  virtual void take(Body& body, double time, double dt) = 0;
+
   /// Makes the nodal forces self-equilibrated about Gamma and the dissipation of J free of net volume,
-  /// (3.120); notes what is not the divergence of P.
-  void conserve(Body& body, const std::vector<Vec<D>>& Gamma, double dt) {
-    if (projects_) {
-      project_momentum<D>(body.R.p, Gamma, body.V);
-      if constexpr (Body::nets_J)
-        project_volume(body.R.J, body.dissipation.rate_J, body.V);
-    }
-    for_each(body.size(), [&](std::int64_t a) { numerical_[a] += 0.5 * dt * (body.R.p[a] - body.T[a]); });
+  /// (3.120).
+  void conserve(Body& body, const std::vector<Vec<D>>& Gamma) const {
+    if (!projects_)
+      return;
+    project_momentum<D>(body.R.p, Gamma, body.V);
+    if constexpr (Body::nets_J)
+      project_volume(body.R.J, body.dissipation.rate_J, body.V);
   }
 
-  /// Forces from outside on the rates of a stage whose positions are x: the projection must not see them.
-  void load(Body& body, const std::vector<Vec<D>>& x, double time, double dt) {
-    if (!outside_.loads.empty()) {
-      for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
-      for (const auto& load : outside_.loads)
-        load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
-      for_each(body.size(), [&](std::int64_t a) {
-        body.R.p[a] += force_[a];
-        external_impulse_[a] += 0.5 * dt * force_[a];
-      });
-    }
+  /// Forces from outside on the rates, for positions x at `time`: the projection must not see them. Walls
+  /// note `share` dt of theirs.
+  void load(Body& body, const std::vector<Vec<D>>& x, double time, double dt, double share) {
+    if (!loaded_)
+      return;
+    for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
+    for (const auto& load : outside_.loads)
+      load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
+    for_each(body.size(), [&](std::int64_t a) { body.R.p[a] += force_[a]; });
     for (Wall<D>& wall : outside_.walls)
-      wall.push(x, body.U.p, body.density, time, dt, body.R.p, external_impulse_);
+      wall.push(x, body.U.p, body.density, time, dt, share, body.R.p, force_);
   }
 
-  /// The first stage's momenta move a particle from the middle of x^n and x* to x^(n+1), in dt/2.
-  void hold_middle(Body& body, double time, double dt) {
-    if (!outside_.walls.empty())
-      for_each(body.size(), [&](std::int64_t a) { place_[a] = 0.5 * (before_.x[a] + body.U.x[a]); });
-    limit_by<D>(outside_.walls, place_, body.U.p, body.density, time + 0.5 * dt, 0.5 * dt, 0.5,
-                external_impulse_);
-    outside_.held.apply(body.U.p, body.density, time + dt, 0.5, external_impulse_);
+  /// Notes the impulse of the rates over dt: the numerical part, which is not the divergence of P, and that
+  /// of forces from outside.
+  void note(const Body& body, double dt) {
+    if (!loaded_) {
+      for_each(body.size(), [&](std::int64_t a) { numerical_[a] += dt * (body.R.p[a] - body.T[a]); });
+      return;
+    }
+    for_each(body.size(), [&](std::int64_t a) {
+      numerical_[a] += dt * (body.R.p[a] - body.T[a] - force_[a]);
+      external_impulse_[a] += dt * force_[a];
+    });
   }
 
-  /// Contact of particles at x, and essential conditions, on the momenta of the last stage.
-  void hold(Body& body, const std::vector<Vec<D>>& x, double time, double dt) {
-    limit_by<D>(outside_.walls, x, body.U.p, body.density, time, dt, 1.0, external_impulse_);
-    outside_.held.apply(body.U.p, body.density, time, 1.0, external_impulse_);
+  /// Contact and essential conditions on momenta that take the particles from x at `time` onwards over dt and
+  /// of whose change the share reaches the end of the step.
+  void limit(Body& body, const std::vector<Vec<D>>& x, double time, double dt, double share = 1) {
+    limit_by<D>(outside_.walls, x, body.U.p, body.density, time, dt, share, external_impulse_);
+  }
+  void hold(Body& body, double time, double share = 1) {
+    outside_.held.apply(body.U.p, body.density, time, share, external_impulse_);
   }
 
+  bool pushed() const { return pushed_; } ///< by a penalty
+
+  Conditions<D> outside_;
+  typename Body::Formulation before_; ///< U^n
+
+ private:
   /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
   void account(const Body& body) {
     const auto work_of = [&](std::vector<Vec<D>>& impulse) {
@@ -143,13 +131,11 @@ class Step {
       external_ += work_of(external_impulse_);
   }
 
-  Conditions<D> outside_;
   bool projects_;
   bool works_;
-  bool pushes_ = false; ///< a wall is a penalty
-  typename Body::Formulation before_;
-  std::vector<Vec<D>> force_;            ///< of the loads, N/m^3
-  std::vector<Vec<D>> place_;            ///< where a stage's contact is judged
+  bool pushed_;
+  bool loaded_;                          ///< by loads or penalties
+  std::vector<Vec<D>> force_;            ///< of them, N/m^3
   std::vector<Vec<D>> numerical_;        ///< impulse of dissipation and projection in this step, kg/(m^2 s)
   std::vector<Vec<D>> external_impulse_; ///< of walls, loads and moving boundaries in this step, kg/(m^2 s)
   double dissipated_ = 0;

@@ -42,6 +42,12 @@ struct VonMises {
     return hencky.piola_from(shrink * tau_trial, trial.axes, strain);
   }
 
+  /// The same if it did not flow any further.
+  Mat3 elastic_piola(const Strain& strain, const History& history) const {
+    const PrincipalLogStrain elastic(strain.F * history.plastic_metric * strain.F.transpose());
+    return hencky.piola_from(2 * hencky.elastic.mu * elastic.deviator, elastic.axes, strain);
+  }
+
   /// Stored elastic energy, J/m^3.
   double energy(const Strain& strain, const History& history) const {
     const PrincipalLogStrain elastic(strain.F * history.plastic_metric * strain.F.transpose());

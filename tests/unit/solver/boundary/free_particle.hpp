@@ -23,8 +23,10 @@ class FreeParticle {
     const std::vector<Vec<D>> x_n = x, p_n = p;
     for (const bool last : {false, true}) {
       std::vector<Vec<D>> R = {density * acceleration};
+      std::vector<Vec<D>> force = {Vec<D>::Zero()};
       for (Wall<D>& wall : walls)
-        wall.push(x, p, density, last ? time + dt : time, dt, R, impulse);
+        wall.push(x, p, density, last ? time + dt : time, dt, 0.5, R, force);
+      impulse[0] += 0.5 * dt * force[0];
       const Vec<D> x_next = x[0] + dt / density * p[0], p_next = p[0] + dt * R[0];
       x[0] = last ? Vec<D>((x_n[0] + x_next) / 2) : x_next;
       p[0] = last ? Vec<D>((p_n[0] + p_next) / 2) : p_next;

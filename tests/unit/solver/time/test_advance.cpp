@@ -1,4 +1,4 @@
-#include "solver/time/runge_kutta.hpp"
+#include "solver/time/advance.hpp"
 
 #include "solver/physics/formulation.hpp"
 
@@ -24,12 +24,12 @@ double error(int n) {
 
 } // namespace
 
-TEST(RungeKutta, IsOfSecondOrder) {
+TEST(Advance, IsOfSecondOrder) {
   const double order = std::log2(error(100) / error(200));
   EXPECT_NEAR(order, 2, 0.02);
 }
 
-TEST(RungeKutta, AmplifiesAsTheStabilityPolynomialSays) {
+TEST(Advance, AmplifiesAsTheStabilityPolynomialSays) {
   // z = 1 + m + m^2 / 2 for u' = lambda u with m = lambda dt.
   std::vector<double> u = {1.0};
   const double m = -0.7;
@@ -38,7 +38,7 @@ TEST(RungeKutta, AmplifiesAsTheStabilityPolynomialSays) {
   EXPECT_DOUBLE_EQ(u[0], 1 + m + m * m / 2);
 }
 
-TEST(RungeKutta, AdvancesEveryFieldOfAFormulation) {
+TEST(Advance, AdvancesEveryFieldOfAFormulation) {
   PF<2> U(2), R(2);
   R.p[1] = {1, 2};
   R.F[0](0, 1) = 3;

@@ -1,4 +1,4 @@
-/// Heun's two-stage TVD Runge-Kutta method on the fields of a formulation, (3.99).
+/// One field, or all fields of a formulation, along their rates.
 #pragma once
 
 #include "core/parallel.hpp"
@@ -9,13 +9,13 @@
 
 namespace tessera::solver {
 
-/// u <- u + dt r: the first stage, U* = U^n + dt R(U^n).
+/// u <- u + dt r.
 template <class T>
 void advance(std::vector<T>& u, double dt, const std::vector<T>& r) {
   for_each(static_cast<std::int64_t>(u.size()), [&](std::int64_t a) { u[a] += dt * r[a]; });
 }
 
-/// u <- (u^n + u + dt r) / 2: the second stage and the average, U^(n+1) = (U^n + U* + dt R(U*)) / 2.
+/// u <- (u^n + u + dt r) / 2: what ends a step of Heun's method, (3.99).
 template <class T>
 void average(std::vector<T>& u, const std::vector<T>& u_n, double dt, const std::vector<T>& r) {
   for_each(static_cast<std::int64_t>(u.size()),
@@ -33,7 +33,7 @@ void for_each_field(Use&& use, Fields fields, Others... others) {
   (std::make_index_sequence<std::tuple_size_v<Fields>>{});
 }
 
-/// The first stage for every field of a formulation.
+/// Every field of a formulation.
 template <class Formulation>
 void advance(Formulation& U, double dt, const Formulation& R) {
   advance(U.x, dt, R.x);
@@ -41,7 +41,7 @@ void advance(Formulation& U, double dt, const Formulation& R) {
   for_each_field([&](auto& u, const auto& r) { advance(u, dt, r); }, U.strains(), R.strains());
 }
 
-/// The second stage for the strains of a formulation.
+/// The strains of a formulation.
 template <class Formulation>
 void average_strains(Formulation& U, const Formulation& U_n, double dt, const Formulation& R) {
   for_each_field([&](auto& u, const auto& u_n, const auto& r) { average(u, u_n, dt, r); }, U.strains(),

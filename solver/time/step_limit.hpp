@@ -1,0 +1,85 @@
+/// The largest step a body is taken with.
+#pragma once
+
+#include "core/parallel.hpp"
+#include "solver/time/critical_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace tessera::solver {
+
+/// The smaller of two, each where it is asked for:
+///   length / c_max, (3.93), with c_max the fastest pressure wave as the body is deformed and length sigma
+///   times the smallest particle distance (m);
+///   a share of the critical step.
+template <class Body>
+class StepLimit {
+ public:
+  /// length: infinite for no such limit; share: zero for none.
+  StepLimit(double length, double share) : length_(length), share_(share) {}
+
+  /// For the step to come, s.
+  double operator()(Body& body) {
+    const double by_distance =
+        std::isfinite(length_) ? length_ / body.fastest_wave() : std::numeric_limits<double>::infinity();
+    return share_ == 0 ? by_distance : std::min(by_distance, share_ * follow(body));
+  }
+
+  double critical() const { return critical_.value(); } ///< as last found, s; zero without
+
+ private:
+  /// Between one look at the operator and the next the particle that could vibrate fastest, the others held,
+  /// says how the critical step has shrunk.
+  double follow(Body& body) {
+    if (stiffness_.empty())
+      begin(body);
+    const double pace = fastest_pace(body);
+    constexpr double hurry = 1.1;
+    if (++since_ >= interval_ || pace > hurry * pace_) {
+      constexpr int sweeps = 3;
+      constexpr std::int64_t shortest = 8, longest = 256;
+      const double expected = critical_.value() * pace_ / pace;
+      critical_.refine(body, sweeps);
+      const double surprise = std::abs(critical_.value() / expected - 1);
+      interval_ = std::clamp(surprise < 0.01 ? 2 * interval_ : surprise > 0.03 ? interval_ / 2 : interval_,
+                             shortest, longest);
+      pace_ = pace;
+      since_ = 0;
+    }
+    return critical_.value() * std::min(1.0, pace_ / pace);
+  }
+
+  void begin(Body& body) {
+    constexpr int from_scratch = 40;
+    critical_.refine(body, from_scratch);
+    stiffness_ = stiffness_of(body);
+    pace_ = fastest_pace(body);
+  }
+
+  /// sqrt of the diagonal of the operator -div grad, 1/m.
+  static std::vector<double> stiffness_of(const Body& body) {
+    std::vector<double> stiffness(body.V.size());
+    for_each(body.size(), [&](std::int64_t a) {
+      double diagonal = body.gradient.s[a].squaredNorm();
+      for (std::int64_t e = body.neighbours.row[a]; e < body.neighbours.row[a + 1]; ++e)
+        diagonal += body.V[a] / body.V[body.neighbours.column[e]] * body.gradient.t[e].squaredNorm();
+      stiffness[a] = std::sqrt(diagonal);
+    });
+    return stiffness;
+  }
+  double fastest_pace(const Body& body) const {
+    return max_of(body.size(), 0.0, [&](std::int64_t a) { return body.wave[a] * stiffness_[a]; });
+  }
+
+  double length_, share_;
+  CriticalStep<Body> critical_;
+  std::vector<double> stiffness_; ///< of every particle, 1/m
+  double pace_ = 0;               ///< when the operator was looked at last, 1/s
+  std::int64_t since_ = 0, interval_ = 8;
+};
+
+} // namespace tessera::solver
