@@ -25,8 +25,7 @@ class CriticalStep {
 
   /// Sweeps over all edges. U, P and R of the body are as before afterwards.
   void refine(Body& body, int sweeps) {
-    if (field_.empty())
-      randomise(body.V.size());
+    stir(body.V.size());
     const auto U_p = body.U.p, R_p = body.R.p, T = body.T;
     const auto P = body.P;
     const auto R_J = rates_of_J(body);
@@ -48,12 +47,13 @@ class CriticalStep {
   }
 
  private:
-  void randomise(std::size_t n) {
-    std::mt19937_64 random(1);
-    field_.resize(n);
+  /// A field that has converged to one place would not see another become stiffer.
+  void stir(std::size_t n) {
+    const double share = field_.empty() ? 1 : 0.1;
+    field_.resize(n, Vec<D>::Zero());
     for (Vec<D>& u : field_)
       for (double& component : u)
-        component = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+        component += share * (static_cast<double>(random_() >> 11) * 0x1p-52 - 1);
   }
 
   static std::vector<double> rates_of_J(const Body& body) {
@@ -65,21 +65,22 @@ class CriticalStep {
 
   /// T = -K p and R.p - T = -C p of the field p have been found.
   void improve(const Body& body) {
-    using Sums = Eigen::Vector3d; // p.p, p.Kp, p.Cp
+    using Sums = Eigen::Vector4d; // p.p, p.Kp, p.Cp, 1.1
     const Sums sums = sum(body.size(), Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
       const Vec<D>&p = field_[a], T = body.T[a];
-      return body.V[a] * Sums(p.squaredNorm(), -p.dot(T), -p.dot(body.R.p[a] - T));
+      return body.V[a] * Sums(p.squaredNorm(), -p.dot(T), -p.dot(body.R.p[a] - T), 1);
     });
     const double K = std::max(sums[1] / sums[0], 0.0), C = std::max(sums[2] / sums[0], 0.0);
     const double dt = 4 / (C + std::sqrt(C * C + 4 * K));
     value_ = dt;
-    const double unit = 1 / (4 * std::sqrt(sums[0]));
+    const double unit = 0.25 * std::sqrt(sums[3] / sums[0]);
     for_each(body.size(), [&](std::int64_t a) {
       field_[a] = -unit * (dt * dt * body.T[a] + 2 * dt * (body.R.p[a] - body.T[a]));
     });
   }
 
-  std::vector<Vec<D>> field_; ///< momenta that grow first
+  std::vector<Vec<D>> field_; ///< momenta that grow first, of mean square 1
+  std::mt19937_64 random_{1};
   double value_ = 0;
 };
 

@@ -41,7 +41,7 @@ class StepLimit {
     constexpr double hurry = 1.1;
     if (++since_ >= interval_ || pace > hurry * pace_) {
       constexpr int sweeps = 3;
-      constexpr std::int64_t shortest = 8, longest = 256;
+      constexpr std::int64_t shortest = 8, longest = 64;
       const double expected = critical_.value() * pace_ / pace;
       critical_.refine(body, sweeps);
       const double surprise = std::abs(critical_.value() / expected - 1);
