@@ -111,13 +111,17 @@ TYPED_TEST(Critical, LeavesTheBodyAsItWas) {
 }
 
 TYPED_TEST(Critical, FollowsABodyAsItIsSqueezed) {
+  // At a constant volume, to half the width: waves take half the time through it.
   constexpr int D = TypeParam::value;
   auto body = irregular_body<D>(0);
   StepLimit<decltype(body)> limit(std::numeric_limits<double>::infinity(), 1);
   const double at_rest = limit(body);
   for (int i = 0; i <= 200; ++i) {
-    for (auto& F : body.U.F)
-      F(0, 0) = 1 - 0.5 * i / 200;
+    const double squeeze = 1 - 0.5 * i / 200;
+    for (auto& F : body.U.F) {
+      F *= std::pow(squeeze, -1.0 / (D - 1)) / F(1, 1); // the others, so that the volume stays
+      F(0, 0) = squeeze;
+    }
     body.commit();
     limit(body);
   }
@@ -127,7 +131,7 @@ TYPED_TEST(Critical, FollowsABodyAsItIsSqueezed) {
   CriticalStep<decltype(body)> afresh;
   afresh.refine(squeezed, 80);
   EXPECT_NEAR(limit(body) / afresh.value(), 1, 0.05);
-  EXPECT_LT(afresh.value(), 0.97 * at_rest);
+  EXPECT_LT(afresh.value(), 0.7 * at_rest);
 }
 
 TYPED_TEST(Critical, ALimitByDistanceIsThatOfTheFastestWave) {
