@@ -13,7 +13,8 @@ struct DissipationDefaults {
   static constexpr bool active = false;
   static constexpr bool of_J = false;              ///< it acts on the volume map too
   static constexpr bool nets_J = false;            ///< and does not keep sum V J by itself
-  static constexpr bool looks_at_gradient = false; ///< of the velocity
+  /// Its own spectrum, not only that of the waves, limits the step; the body then keeps grad v for finding it.
+  static constexpr bool bounds_step = false;
   static constexpr bool sweeps_first = false;      ///< it has something to gather in the first sweep
   static constexpr std::size_t edge_bytes = 0, particle_bytes = 0;
 

@@ -35,6 +35,12 @@ std::string chosen_formulation(const SceneSpec& scene) {
   return linearised(scene.material).poisson() > nearly_incompressible - 1e-9 ? PFJ<3>::name : PF<3>::name;
 }
 
+std::string chosen_dissipation(const SceneSpec& scene) {
+  if (scene.dissipation != "auto")
+    return scene.dissipation;
+  return scene.scheme == "consistent" ? "linear_residual" : "jst";
+}
+
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress) {
   return with_formulation(scene, cloud, [&]<class Formulation>() {
     return run_formulation<Formulation>(scene, cloud, outputs, progress);
