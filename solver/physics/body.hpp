@@ -44,7 +44,7 @@ class Body {
   static constexpr bool dissipates_J = Dissipation::of_J;
   static_assert(Formulation::evolves_J || !dissipates_J);
   static constexpr bool nets_J = Dissipation::nets_J;
-  static constexpr bool finds_gradient = Formulation::evolves_F || Dissipation::bounds_step;
+  static constexpr bool finds_gradient = Formulation::evolves_F || dissipates;
 
   /// At rest at the reference positions.
   explicit Body(BodyParts<D, Dissipation> parts)
@@ -219,7 +219,8 @@ class Body {
 
   double involution_;                   ///< xi / Delta, 1/m
   std::vector<Mat<D>> gradient_of_x_{}; ///< F where no field evolves it
-  std::vector<Mat<D>> gradient_of_v_{}; ///< G where no field evolves by it, but the step is found with it
+  std::vector<Mat<D>>
+      gradient_of_v_{}; ///< G where no field evolves by it, but the stable step is found with it
 };
 
 } // namespace tessera::solver

@@ -16,11 +16,11 @@ namespace tessera::solver {
 
 /// Of the linear momentum: with L the corrected Laplacian and s = kappa4 c V^(3/D),
 ///   D = -V^-1 L^T (V s) L p,
-/// so that sum V p . D = -sum V s |L p|^2: negative semidefinite whatever the strengths s. L vanishes on linear
-/// fields: those are spared, and sum V D = 0.
+/// so that sum V p . D = -sum V s |L p|^2: negative semidefinite whatever the strengths s. L vanishes on
+/// linear fields: those are spared, and sum V D = 0.
 template <int D>
 struct JstSymmetric : DissipationDefaults {
-  static constexpr bool active = true, bounds_step = true, sweeps_first = true;
+  static constexpr bool active = true, sweeps_first = true;
   static constexpr std::size_t edge_bytes = 2 * sizeof(double),
                                particle_bytes = 3 * sizeof(double) + sizeof(Vec<D>);
 

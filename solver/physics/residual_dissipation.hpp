@@ -1,5 +1,5 @@
-/// Dissipation of what a linear field cannot carry: it takes energy and conserves momentum on any cloud, and is
-/// of fourth order where the momenta are smooth.
+/// Dissipation of what a linear field cannot carry: it takes energy and conserves momentum on any cloud, and
+/// is of fourth order where the momenta are smooth.
 #pragma once
 
 #include "core/neighbours.hpp"
@@ -19,12 +19,12 @@ namespace tessera::solver {
 /// leave of it,
 ///   E = 1/4 sum_a s_a sum_b omega_ab |p_b - p_a - m_a (X_b - X_a)|^2,   s = kappa c V^(1/D),
 ///   D_a = 1/V_a sum_b omega_ab [(s_a + s_b)/2 (p_b - p_a) - (s_a m_a + s_b m_b)/2 (X_b - X_a)]
-/// with omega_ab = V_a V_b |W'|/r. As each m_a makes its own share of E smallest, its change does not enter the
-/// slope. So sum V p . D = -2 E: negative semidefinite whatever the strengths s. Zero on linear fields,
+/// with omega_ab = V_a V_b |W'|/r. As each m_a makes its own share of E smallest, its change does not enter
+/// the slope. So sum V p . D = -2 E: negative semidefinite whatever the strengths s. Zero on linear fields,
 /// antisymmetric in pairs.
 template <int D>
 struct ResidualDissipation : DissipationDefaults {
-  static constexpr bool active = true, bounds_step = true, sweeps_first = true;
+  static constexpr bool active = true, sweeps_first = true;
   static constexpr std::size_t edge_bytes = sizeof(double),
                                particle_bytes = 2 * sizeof(Vec<D>) + 2 * sizeof(Mat<D>) + 2 * sizeof(double);
 
@@ -80,9 +80,7 @@ struct ResidualDissipation : DissipationDefaults {
     for (int c = 0; c < D; ++c)
       sum.p.col(c) += R[c] * body.U.p[b];
   }
-  void end_first(const First& sum, std::int64_t a) {
-    slope[a] = strength[a] * (sum.p * inverse_moment[a]);
-  }
+  void end_first(const First& sum, std::int64_t a) { slope[a] = strength[a] * (sum.p * inverse_moment[a]); }
 
   template <class Body>
   Vec<D> begin_second(const Body&, std::int64_t a) const {
@@ -90,8 +88,7 @@ struct ResidualDissipation : DissipationDefaults {
   }
   template <class Body>
   void add_second(Vec<D>& sum, const Body& body, std::int64_t a, std::int64_t e, std::int32_t b) const {
-    sum += weight[e] *
-           ((strength[a] + strength[b]) * (body.U.p[b] - body.U.p[a]) - slope[b] * (X[b] - X[a]));
+    sum += weight[e] * ((strength[a] + strength[b]) * (body.U.p[b] - body.U.p[a]) - slope[b] * (X[b] - X[a]));
   }
   template <class Body>
   void end_second(const Vec<D>& sum, Body& body, std::int64_t a) {
@@ -167,8 +164,7 @@ struct ResidualDissipationWithJ : ResidualDissipation<D> {
   template <class Body>
   void advance(const Body& body) {
     Base::advance(body);
-    for_each(body.size(),
-             [&](std::int64_t a) { strength_J[a] = kappa_J * body.wave[a] * this->length[a]; });
+    for_each(body.size(), [&](std::int64_t a) { strength_J[a] = kappa_J * body.wave[a] * this->length[a]; });
   }
 };
 

@@ -54,7 +54,7 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
                 Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
       Step<ThisBody>(make_conditions<D>(scene, cloud, modulus, smallest), scene.momentum_projection),
       scene.cfl * smallest};
-  if constexpr (Dissipation::bounds_step)
+  if constexpr (Dissipation::active)
     assembly.step_length = std::min(assembly.step_length, stable_length(assembly.body));
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
@@ -72,7 +72,7 @@ template <class Formulation, class Dissipation>
 double bytes_per_particle(double neighbours, std::size_t history_bytes, bool external) {
   constexpr std::size_t D = Formulation::dimension;
   constexpr std::size_t vector = sizeof(Vec<D>), tensor = sizeof(Mat<D>), number = sizeof(double);
-  constexpr bool grad_v = !Formulation::evolves_F && Dissipation::bounds_step;
+  constexpr bool grad_v = !Formulation::evolves_F && Dissipation::active;
   constexpr std::size_t state = 2 * vector + Formulation::evolves_F * tensor +
                                 Formulation::evolves_H * sizeof(Mat3) + Formulation::evolves_J * number;
   const double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;

@@ -8,6 +8,8 @@
 #include "solver/physics/residual_dissipation.hpp"
 #include "solver/scene/scene.hpp"
 
+#include <string>
+
 namespace tessera::solver {
 
 inline bool is_consistent(const SceneSpec& scene) {
@@ -34,11 +36,14 @@ inline double chosen_residual_J(const SceneSpec& scene) {
   return scene.residual_J.value_or(usual_residual_J);
 }
 
-/// On a cloud with a boundary lap lap of J is not symmetric and feeds some fields at up to 1.5 kappa4 c/Delta;
-/// from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md). The symmetric dissipations of J
-/// feed nothing.
+/// From 3.2 kappa4 on (jst), 2.4 kappa4 (jst_symmetric) and 0.2 (linear_residual) the penalty held in every
+/// run tried (docs/validation.md, docs/theory.md).
 inline double chosen_involution(const SceneSpec& scene) {
-  return scene.involution.value_or(chosen_dissipation(scene) == "jst" ? 4 * chosen_kappa4_J(scene) : 0.2);
+  const std::string dissipation = chosen_dissipation(scene);
+  const double enough = dissipation == "linear_residual" ? 0.2
+                        : dissipation == "jst"           ? 4 * chosen_kappa4_J(scene)
+                                                         : 3 * chosen_kappa4_J(scene);
+  return scene.involution.value_or(enough);
 }
 
 /// What a dissipation is made from.

@@ -107,19 +107,21 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
   place(is_consistent(scene), "balance of constant stresses", "solver.scheme = \"thesis\"");
   const std::string chosen = chosen_dissipation(scene);
   const bool residual = chosen == "linear_residual";
-  const std::string dissipation = residual             ? "residual dissipation"
+  const std::string dissipation = residual          ? "residual dissipation"
                                   : chosen == "jst" ? "JST dissipation"
-                                                       : "symmetric JST dissipation";
+                                                    : "symmetric JST dissipation";
   place(Body::dissipates, dissipation, residual ? "solver.residual = 0" : "solver.jst4 = 0");
   if constexpr (requires { body.dissipation.laplacian; })
     if (body.dissipation.laplacian.blind > 0)
-      forecast.left_out.push_back(fmt::format("{} by {} particles (their neighbours lie on a sphere with them; "
-                                              "a wider solver.support)",
-                                              dissipation, body.dissipation.laplacian.blind));
+      forecast.left_out.push_back(
+          fmt::format("{} by {} particles (their neighbours lie on a sphere with them; "
+                      "a wider solver.support)",
+                      dissipation, body.dissipation.laplacian.blind));
   if (Body::dissipates && chosen == "jst")
     place(scene.jst2 > 0, "JST's shock term", "solver.jst2 = 0");
   if constexpr (Formulation::evolves_J) {
-    place(Body::dissipates_J, dissipation + " of J", residual ? "solver.residual_J = 0" : "solver.jst4_J = 0");
+    place(Body::dissipates_J, dissipation + " of J",
+          residual ? "solver.residual_J = 0" : "solver.jst4_J = 0");
     place(chosen_involution(scene) > 0, "involution penalty", "solver.involution = 0");
   }
   place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");

@@ -99,8 +99,8 @@ struct SceneSpec {
   MaterialSpec material;
   std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
   std::string scheme = "thesis";    ///< thesis, consistent
-  /// auto, jst, jst_symmetric, linear_residual: auto is the scheme's own, jst of "thesis" and linear_residual of
-  /// "consistent".
+  /// auto, jst, jst_symmetric, linear_residual: auto is the scheme's own, jst of "thesis" and linear_residual
+  /// of "consistent".
   std::string dissipation = "auto";
   std::string kernel = "wendland"; ///< one of kernel_names()
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices (1.6 in the
@@ -113,9 +113,9 @@ struct SceneSpec {
   /// kappa of the residual dissipation; absent: usual_residual, none with displacements.
   std::optional<PlasticRamp> residual{};
   std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
-  std::optional<double>
-      involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with jst
-  double cfl = 0.3; ///< sigma of (3.93)
+  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2; 4
+                                      ///< jst4_J with jst, 3 with jst_symmetric
+  double cfl = 0.3;                   ///< sigma of (3.93)
   bool momentum_projection = true;
   double end_time = 0; ///< s
   std::vector<InitialCondition> initial;

@@ -1,5 +1,5 @@
-/// Symmetric JST and the residual dissipation take energy whatever the cloud, the velocities and the strengths of
-/// the particles: their forms are negative semidefinite, by all eigenvalues of small clouds.
+/// Symmetric JST and the residual dissipation take energy whatever the cloud, the velocities and the
+/// strengths of the particles: their forms are negative semidefinite, by all eigenvalues of small clouds.
 #include "preprocess/cloud/prepare.hpp"
 #include "solver/operators/consistent.hpp"
 #include "solver/operators/support.hpp"
@@ -34,7 +34,8 @@ std::vector<std::pair<std::string, ParticleCloud>> clouds() {
   request.arrangement = preprocess::Arrangement::voronoi;
   request.count = 150;
   const ParticleCloud two_pass =
-      preprocess::prepare(D == 3 ? test::box_domain() : test::square_slab(), request, Progress::silent()).cloud;
+      preprocess::prepare(D == 3 ? test::box_domain() : test::square_slab(), request, Progress::silent())
+          .cloud;
   const ParticleCloud lattice =
       D == 3 ? test::box_lattice(5, 6, 5, Vec3(0.8, 1, 0.8)) : test::box_lattice(12, 11, 1, Vec3(1.1, 1, 0));
   return {{"lattice", lattice}, {"jittered", test::jittered(lattice, 0.3, 7)}, {"two-pass", two_pass}};
@@ -59,8 +60,8 @@ Body<PF<D>, Dissipation> body_of(const ParticleCloud& cloud, bool consistent) {
     balance_constant_stress<D>(gradient, cloud.X, cloud.V, cloud.A, graph);
   const NeoHookean law{ElasticConstants::from(17e6, 0.45)};
   return Body<PF<D>, Dissipation>({std::move(X), cloud.V, 1100,
-                                   std::make_unique<MaterialOf<D, NeoHookean>>(law, cloud.size()), std::move(graph),
-                                   std::move(gradient), std::move(dissipation)});
+                                   std::make_unique<MaterialOf<D, NeoHookean>>(law, cloud.size()),
+                                   std::move(graph), std::move(gradient), std::move(dissipation)});
 }
 
 double number(std::mt19937_64& random) {

@@ -4,6 +4,7 @@
 #include "solver/operators/support.hpp"
 #include "solver/physics/body.hpp"
 #include "solver/physics/jst.hpp"
+#include "solver/physics/jst_symmetric.hpp"
 #include "solver/physics/materials/neo_hookean.hpp"
 #include "solver/physics/residual_dissipation.hpp"
 #include "tests/support/clouds.hpp"

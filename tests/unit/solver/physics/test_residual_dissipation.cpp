@@ -1,5 +1,6 @@
 #include "solver/physics/residual_dissipation.hpp"
 
+#include "solver/operators/consistent.hpp"
 #include "solver/time/stable_length.hpp"
 #include "tests/unit/solver/physics/bodies.hpp"
 
