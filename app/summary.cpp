@@ -34,6 +34,7 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
   json["version"] = TESSERA_VERSION;
   json["formulation"] = s.formulation;
   json["scheme"] = s.scheme;
+  json["dissipation"] = s.dissipation;
   json["arrangement"] = cloud.arrangement;
   json["subvolumes"] = cloud.subvolumes;
   json["seed"] = cloud.seed;

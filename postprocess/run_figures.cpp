@@ -28,6 +28,7 @@ constexpr Known summary_keys[] = {
     {"version", "Program version", ""},
     {"formulation", "Formulation", ""},
     {"scheme", "Scheme", ""},
+    {"dissipation", "Dissipation", ""},
     {"arrangement", "Arrangement", ""},
     {"subvolumes", "Subvolumes", ""},
     {"seed", "Seed", ""},

@@ -85,6 +85,7 @@ std::optional<solver::PlasticRamp> read_ramp(Table& table, const std::string& ke
 void read_solver(Table solver, solver::SceneSpec& scene) {
   scene.formulation = solver.text_or("formulation", scene.formulation);
   scene.scheme = solver.text_or("scheme", scene.scheme);
+  scene.dissipation = solver.text_or("dissipation", scene.dissipation);
   scene.kernel = solver.text_or("kernel", scene.kernel);
   scene.support = solver.optional_number("support");
   scene.neighbours = static_cast<int>(solver.integer_or("neighbours", scene.neighbours, 1, 1000));

@@ -134,10 +134,9 @@ class Bench:
         self.tables = {}   # name of the marker in docs/validation.md: Table
         self.failures = []
 
-    def run(self, case, name, end_time=None, frames=1, rows=200, probes=None, refusable=False, **keys):
+    def run(self, case, name, end_time=None, frames=1, rows=200, probes=None, **keys):
         """Runs geometries/`case` into the folder `name`. Keys override the case's: solver__jst4=0 is solver.jst4 = 0;
-        probes (inline tables of TOML) take the place of the case's. A scene the
-        program may refuse to run is `refusable`."""
+        probes (inline tables of TOML) take the place of the case's."""
         keys = {**keys, "output__frames": frames, "output__history_rows": rows}
         if end_time is not None:
             keys["solver__end_time"] = end_time
@@ -159,7 +158,7 @@ class Bench:
             command += ["--set", item]
         result = subprocess.run(command, capture_output=True, text=True)
         error = None if result.returncode == 0 else (result.stderr.strip().splitlines() or ["no message"])[-1]
-        if result.returncode not in ((0, 1, 2) if refusable else (0, 1)):  # a mistake in the case or in this script, not a finding
+        if result.returncode not in (0, 1):  # a mistake in the case or in this script, not a finding
             raise SystemExit(f"{name}: {error}\n  {' '.join(command)}")
         done.write_text(json.dumps({"asked": asked, "error": error}))
         run = Run(folder, error)

@@ -8,12 +8,6 @@
 #include <limits>
 
 namespace tessera::solver {
-namespace {
-
-/// Beyond this condition number the correction amplifies round-off and irregularity more than it corrects.
-constexpr double singular = 1e8;
-
-} // namespace
 
 template <int D>
 double condition_number(const Mat<D>& moment) {

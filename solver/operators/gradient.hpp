@@ -29,6 +29,10 @@ template <int D>
 Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
                            const Kernel<D>& kernel = {});
 
+/// Beyond this condition number of a moment matrix the correction amplifies round-off and irregularity more
+/// than it corrects.
+constexpr double singular = 1e8;
+
 /// Condition number of a symmetric moment matrix; infinite when it is singular.
 template <int D>
 double condition_number(const Mat<D>& moment);

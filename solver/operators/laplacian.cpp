@@ -2,8 +2,12 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "solver/operators/gradient.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
 
 namespace tessera::solver {
 
@@ -11,6 +15,7 @@ template <int D>
 Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
                           const Kernel<D>& kernel) {
   const std::int64_t n = neighbours.size();
+  std::vector<std::int64_t> blind(static_cast<std::size_t>(n), 0);
   Laplacian laplacian;
   laplacian.l.resize(static_cast<std::size_t>(neighbours.edges()));
   laplacian.sum.resize(static_cast<std::size_t>(n));
@@ -40,12 +45,16 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     right[D] += 2 * D;
     const Eigen::FullPivLU<System> lu(M);
     // rcond() of a matrix that is singular to the last bit is that of its regular part.
-    if (!lu.isInvertible() || !(lu.rcond() > 1e-12))
-      throw InputError(
-          fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few or too "
-                      "regularly placed for a Laplacian",
-                      a, X[a][0], X[a][1], X[a][2], neighbours.count(a)),
-          "", "raise solver.support or solver.neighbours");
+    if (!lu.isInvertible() || !(lu.rcond() > 1e-12)) {
+      if (!(condition_number<D>(M.template topLeftCorner<D, D>()) < singular))
+        throw InputError(fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours, too few "
+                                     "for a Laplacian: they do not span {}",
+                                     a, X[a][0], X[a][1], X[a][2], neighbours.count(a),
+                                     D == 3 ? "space" : "the plane"),
+                         "", "raise solver.support or solver.neighbours");
+      blind[a] = 1;
+      return;
+    }
     const Unknowns alpha_beta = lu.solve(right);
     double sum = 0;
     for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
@@ -57,7 +66,22 @@ Laplacian build_laplacian(std::span<const Vec3> X, std::span<const double> V, co
     }
     laplacian.sum[a] = sum;
   });
+  laplacian.blind = std::accumulate(blind.begin(), blind.end(), std::int64_t{0});
   return laplacian;
+}
+
+std::vector<double> transposed(const Laplacian& laplacian, std::span<const double> V,
+                               const Neighbours& neighbours) {
+  std::vector<double> t(laplacian.l.size());
+  for_each(neighbours.size(), [&](std::int64_t a) {
+    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+      const std::int32_t b = neighbours.column[e];
+      const auto begin = neighbours.column.begin();
+      const auto back = std::lower_bound(begin + neighbours.row[b], begin + neighbours.row[b + 1], a);
+      t[e] = V[b] * laplacian.l[back - begin] / V[a];
+    }
+  });
+  return t;
 }
 
 template Laplacian build_laplacian<2>(std::span<const Vec3>, std::span<const double>, const Neighbours&,

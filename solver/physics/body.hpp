@@ -45,8 +45,6 @@ class Body {
   static constexpr bool dissipates_J = Dissipation::of_J;
   static_assert(Formulation::evolves_J || !dissipates_J);
   static constexpr bool nets_J = Dissipation::nets_J;
-  static constexpr bool looks_at_gradient = Dissipation::looks_at_gradient;
-  static constexpr bool finds_gradient = Formulation::evolves_F || Dissipation::looks_at_gradient;
 
   /// At rest at the reference positions.
   explicit Body(BodyParts<D, Dissipation> parts)
@@ -60,8 +58,6 @@ class Body {
     dissipation.allocate(V.size());
     if constexpr (!Formulation::evolves_F)
       gradient_of_x_.assign(V.size(), Mat<D>::Identity());
-    if constexpr (!Formulation::evolves_F && finds_gradient)
-      gradient_of_v_.assign(V.size(), Mat<D>::Zero());
     commit();
   }
 
@@ -93,14 +89,14 @@ class Body {
   void strain_rates() {
     for_each(size(), [&](std::int64_t a) {
       Mat<D> G = Mat<D>::Zero();
-      if constexpr (finds_gradient)
+      if constexpr (Formulation::evolves_F)
         G = -U.p[a] * gradient.s[a].transpose();
       auto rough = dissipation.begin_first(*this, a);
-      if constexpr (finds_gradient || Dissipation::sweeps_first)
+      if constexpr (Formulation::evolves_F || Dissipation::sweeps_first)
         for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
           const std::int32_t b = neighbours.column[e];
           const Vec<D>& p_b = U.p[b];
-          if constexpr (finds_gradient)
+          if constexpr (Formulation::evolves_F)
             for (int c = 0; c < D; ++c)
               G.col(c) += gradient.w[e][c] * p_b;
           dissipation.add_first(rough, *this, e, b);
@@ -108,8 +104,6 @@ class Body {
       R.x[a] = U.p[a] / density;
       if constexpr (Formulation::evolves_F)
         R.F[a] = G / density;
-      else if constexpr (finds_gradient)
-        gradient_of_v_[a] = G / density;
       dissipation.end_first(rough, a);
       map_rates(a);
     });
@@ -180,14 +174,6 @@ class Body {
   }
 
   Vec<D> velocity(std::int64_t a) const { return U.p[a] / density; }
-  /// G = grad v of the last rates, 1/s.
-  const Mat<D>& velocity_gradient(std::int64_t a) const {
-    static_assert(finds_gradient);
-    if constexpr (Formulation::evolves_F)
-      return R.F[a];
-    else
-      return gradient_of_v_[a];
-  }
   StrainFields<D> strains() const {
     if constexpr (Formulation::evolves_F)
       return U.strain_fields();
@@ -225,7 +211,6 @@ class Body {
 
   double involution_;                   ///< xi / Delta, 1/m
   std::vector<Mat<D>> gradient_of_x_{}; ///< F where no field evolves it
-  std::vector<Mat<D>> gradient_of_v_{}; ///< G where no field evolves by it, but the dissipation looks at it
 };
 
 } // namespace tessera::solver

@@ -10,11 +10,10 @@ namespace tessera::solver {
 /// edges of a step begin a sum at particle a, add the neighbours b of its edges e, and end it: the first by
 /// keeping it, the second by adding the dissipation to the rates of the body.
 struct DissipationDefaults {
-  static constexpr bool active = false;
-  static constexpr bool of_J = false;              ///< it acts on the volume map too
-  static constexpr bool nets_J = false;            ///< and does not keep sum V J by itself
-  static constexpr bool looks_at_gradient = false; ///< of the velocity
-  static constexpr bool sweeps_first = false;      ///< it has something to gather in the first sweep
+  static constexpr bool active = false;       ///< the step is then bounded by the spectrum too
+  static constexpr bool of_J = false;         ///< it acts on the volume map too
+  static constexpr bool nets_J = false;       ///< and does not keep sum V J by itself
+  static constexpr bool sweeps_first = false; ///< it has something to gather in the first sweep
   static constexpr std::size_t edge_bytes = 0, particle_bytes = 0;
 
   struct Sum {};

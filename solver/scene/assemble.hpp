@@ -38,14 +38,14 @@ std::unique_ptr<Step<Body>> make_step(const SceneSpec& scene, Conditions<Body::d
   return std::make_unique<Heun<Body>>(std::move(conditions), scene.momentum_projection);
 }
 
-/// Verlet's step is a share of the critical one. Heun's goes by (3.93); where the dissipation of small cells
-/// may ask for less, a share of the critical step bounds it too.
+/// Verlet's step is a share of the critical one. Heun's goes by (3.93) alone with the thesis' dissipation;
+/// that of others may ask for less where cells are small, so a share of the critical step bounds it too.
 template <class Body>
 StepLimit<Body> make_limit(const SceneSpec& scene, double smallest) {
   constexpr double none = std::numeric_limits<double>::infinity(), enough = 0.8;
   if (chosen_integrator(scene) == "verlet")
     return {none, chosen_cfl(scene)};
-  return {chosen_cfl(scene) * smallest, Body::looks_at_gradient ? enough : 0};
+  return {chosen_cfl(scene) * smallest, chosen_dissipation(scene) == "jst" ? 0 : enough};
 }
 
 /// Calls use(assembly): a body is built where it stays.
@@ -91,7 +91,6 @@ template <class Formulation, class Dissipation>
 double bytes_per_particle(double neighbours, std::size_t history_bytes, bool external) {
   constexpr std::size_t D = Formulation::dimension;
   constexpr std::size_t vector = sizeof(Vec<D>), tensor = sizeof(Mat<D>), number = sizeof(double);
-  constexpr bool grad_v = !Formulation::evolves_F && Dissipation::looks_at_gradient;
   constexpr std::size_t state = 2 * vector + Formulation::evolves_F * tensor +
                                 Formulation::evolves_H * sizeof(Mat3) + Formulation::evolves_J * number;
   const double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;
@@ -99,7 +98,6 @@ double bytes_per_particle(double neighbours, std::size_t history_bytes, bool ext
                             + number + vector                    // V, s
                             + 3 * state                          // U, R and U^n
                             + !Formulation::evolves_F * tensor   // grad x
-                            + grad_v * tensor                    // grad v
                             + static_cast<double>(history_bytes) //
                             + tensor + vector                    // P, T
                             + number + vector                    // wave, numerical impulse

@@ -4,8 +4,11 @@
 #include "core/particle_cloud.hpp"
 #include "solver/operators/laplacian.hpp"
 #include "solver/physics/jst.hpp"
+#include "solver/physics/jst_symmetric.hpp"
 #include "solver/physics/residual_dissipation.hpp"
 #include "solver/scene/scene.hpp"
+
+#include <string>
 
 namespace tessera::solver {
 
@@ -33,11 +36,14 @@ inline double chosen_residual_J(const SceneSpec& scene) {
   return scene.residual_J.value_or(usual_residual_J);
 }
 
-/// Of the thesis' scheme: on a cloud with a boundary lap lap of J is not symmetric and feeds some fields at
-/// up to 1.5 kappa4 c/Delta; from 3.2 kappa4 on the penalty held in every run tried (docs/validation.md). The
-/// residual dissipation of J feeds nothing.
+/// From 3.2 kappa4 on (jst), 2.4 kappa4 (jst_symmetric) and 0.2 (linear_residual) the penalty held in every
+/// run tried (docs/validation.md, docs/theory.md).
 inline double chosen_involution(const SceneSpec& scene) {
-  return scene.involution.value_or(is_consistent(scene) ? 0.2 : 4 * chosen_kappa4_J(scene));
+  const std::string dissipation = chosen_dissipation(scene);
+  const double enough = dissipation == "linear_residual" ? 0.2
+                        : dissipation == "jst"           ? 4 * chosen_kappa4_J(scene)
+                                                         : 3 * chosen_kappa4_J(scene);
+  return scene.involution.value_or(enough);
 }
 
 /// What a dissipation is made from.
@@ -70,6 +76,18 @@ void set_up(JstWithJ<D>& jst, const DissipationGround<D>& on) {
 }
 
 template <class Formulation, int D>
+void set_up(JstSymmetric<D>& jst, const DissipationGround<D>& on) {
+  jst.weigh(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
+  jst.kappa4 = chosen_kappa4<Formulation>(on.scene);
+}
+
+template <class Formulation, int D>
+void set_up(JstSymmetricWithJ<D>& jst, const DissipationGround<D>& on) {
+  set_up<Formulation, D>(static_cast<JstSymmetric<D>&>(jst), on);
+  jst.kappa4_J = chosen_kappa4_J(on.scene);
+}
+
+template <class Formulation, int D>
 void set_up(ResidualDissipation<D>& residual, const DissipationGround<D>& on) {
   residual.weigh(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
   residual.kappa = chosen_residual<Formulation>(on.scene);
@@ -85,21 +103,22 @@ void set_up(ResidualDissipationWithJ<D>& residual, const DissipationGround<D>& o
 template <class Formulation, class Use>
 auto with_dissipation(const SceneSpec& scene, Use&& use) {
   constexpr int D = Formulation::dimension;
-  if (is_consistent(scene)) {
-    const bool of_p = chosen_residual<Formulation>(scene).any();
+  const auto choose = [&]<class OfP, class WithJ>(bool of_p, bool of_J) {
     if constexpr (Formulation::evolves_J) {
-      if (of_p && chosen_residual_J(scene) > 0)
-        return use.template operator()<ResidualDissipationWithJ<D>>();
+      if (of_p && of_J)
+        return use.template operator()<WithJ>();
     }
-    return of_p ? use.template operator()<ResidualDissipation<D>>()
-                : use.template operator()<NoDissipation>();
-  }
-  const bool of_p = chosen_kappa4<Formulation>(scene).any() || scene.jst2 > 0;
-  if constexpr (Formulation::evolves_J) {
-    if (of_p && (chosen_kappa4_J(scene) > 0 || scene.jst2 > 0))
-      return use.template operator()<JstWithJ<D>>();
-  }
-  return of_p ? use.template operator()<Jst<D>>() : use.template operator()<NoDissipation>();
+    return of_p ? use.template operator()<OfP>() : use.template operator()<NoDissipation>();
+  };
+  const std::string name = chosen_dissipation(scene);
+  if (name == "linear_residual")
+    return choose.template operator()<ResidualDissipation<D>, ResidualDissipationWithJ<D>>(
+        chosen_residual<Formulation>(scene).any(), chosen_residual_J(scene) > 0);
+  const bool fourth = chosen_kappa4<Formulation>(scene).any(), fourth_J = chosen_kappa4_J(scene) > 0;
+  if (name == "jst_symmetric")
+    return choose.template operator()<JstSymmetric<D>, JstSymmetricWithJ<D>>(fourth, fourth_J);
+  const bool second = scene.jst2 > 0;
+  return choose.template operator()<Jst<D>, JstWithJ<D>>(fourth || second, fourth_J || second);
 }
 
 } // namespace tessera::solver

@@ -46,6 +46,12 @@ double chosen_cfl(const SceneSpec& scene) {
   return scene.cfl.value_or(chosen_integrator(scene) == "heun" ? heun : verlet);
 }
 
+std::string chosen_dissipation(const SceneSpec& scene) {
+  if (scene.dissipation != "auto")
+    return scene.dissipation;
+  return scene.scheme == "consistent" ? "linear_residual" : "jst";
+}
+
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress) {
   return with_formulation(scene, cloud, [&]<class Formulation>() {
     return run_formulation<Formulation>(scene, cloud, outputs, progress);

@@ -32,6 +32,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   Summary summary;
   summary.formulation = Body::Formulation::name;
   summary.scheme = scene.scheme;
+  summary.dissipation = Body::dissipates ? chosen_dissipation(scene) : "none";
   summary.particles = cloud.size();
   summary.neighbours_mean = body.neighbours.mean();
   summary.support = *std::max_element(body.neighbours.support.begin(), body.neighbours.support.end());
@@ -62,7 +63,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
           fmt::format("step {}, time {:.6g} s", summary.steps + 1, time),
           fmt::format(
               "the last good frame is written: lower solver.cfl, raise solver.{} or refine the particles",
-              is_consistent(scene) ? "residual" : "jst4"));
+              chosen_dissipation(scene) == "linear_residual" ? "residual" : "jst4"));
     }
     time = last ? scene.end_time : time + dt;
     ++summary.steps;
@@ -104,15 +105,24 @@ void list_models(const SceneSpec& scene, const Body& body, Forecast& forecast) {
   place(true, fmt::format("{} in {} dimensions, {}", Formulation::title, Body::dimension, scene.material.law),
         "");
   place(scene.material.plasticity.has_value(), "von Mises plasticity", "no [material.plasticity]");
-  const bool consistent = is_consistent(scene);
-  place(consistent, "balance of constant stresses", "solver.scheme = \"thesis\"");
-  place(Body::dissipates, consistent ? "residual dissipation" : "JST dissipation",
-        consistent ? "solver.residual = 0" : "solver.jst4 = 0");
-  if (Body::dissipates && !consistent)
+  place(is_consistent(scene), "balance of constant stresses", "solver.scheme = \"thesis\"");
+  const std::string chosen = chosen_dissipation(scene);
+  const bool residual = chosen == "linear_residual";
+  const std::string dissipation = residual          ? "residual dissipation"
+                                  : chosen == "jst" ? "JST dissipation"
+                                                    : "symmetric JST dissipation";
+  place(Body::dissipates, dissipation, residual ? "solver.residual = 0" : "solver.jst4 = 0");
+  if constexpr (requires { body.dissipation.laplacian; })
+    if (body.dissipation.laplacian.blind > 0)
+      forecast.left_out.push_back(
+          fmt::format("{} by {} particles (their neighbours lie on a sphere with them; "
+                      "a wider solver.support)",
+                      dissipation, body.dissipation.laplacian.blind));
+  if (Body::dissipates && chosen == "jst")
     place(scene.jst2 > 0, "JST's shock term", "solver.jst2 = 0");
   if constexpr (Formulation::evolves_J) {
-    place(Body::dissipates_J, consistent ? "residual dissipation of J" : "JST dissipation of J",
-          consistent ? "solver.residual_J = 0" : "solver.jst4_J = 0");
+    place(Body::dissipates_J, dissipation + " of J",
+          residual ? "solver.residual_J = 0" : "solver.jst4_J = 0");
     place(chosen_involution(scene) > 0, "involution penalty", "solver.involution = 0");
   }
   place(scene.momentum_projection, "momentum projection", "solver.momentum_projection = false");

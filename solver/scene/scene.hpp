@@ -99,21 +99,23 @@ struct SceneSpec {
   MaterialSpec material;
   std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
   std::string scheme = "thesis";    ///< thesis, consistent
-  std::string kernel = "wendland";  ///< one of kernel_names()
+  /// auto, jst, jst_symmetric, linear_residual: auto is the scheme's own, jst of "thesis" and linear_residual
+  /// of "consistent".
+  std::string dissipation = "auto";
+  std::string kernel = "wendland"; ///< one of kernel_names()
   /// Kernel radius over the spacing, the same for all particles; absent: 2.2 on lattices (1.6 in the
   /// scheme "consistent"), elsewhere each particle's own radius that holds `neighbours` of them.
   std::optional<double> support;
   int neighbours = 0;                ///< 0: 30 in space, 14 in the plane
-  std::optional<PlasticRamp> jst4{}; ///< kappa4 of (3.85); absent: 1/8, none with displacements
-  double jst2 = 0;                   ///< kappa2 of (3.84)
+  std::optional<PlasticRamp> jst4{}; ///< kappa4 of (3.85), of both JST; absent: 1/8, none with displacements
+  double jst2 = 0;                   ///< kappa2 of (3.84), of jst
   std::optional<double> jst4_J{};    ///< kappa4 of the volume map; absent: that of the momentum
-  /// kappa of the residual dissipation, the consistent scheme's; absent: usual_residual, none with
-  /// displacements.
+  /// kappa of the residual dissipation; absent: usual_residual, none with displacements.
   std::optional<PlasticRamp> residual{};
   std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
-  std::optional<double>
-      involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2, and 4 jst4_J with JST
-  std::string integrator = "auto"; ///< heun, verlet; auto: heun with the scheme "thesis", else verlet
+  std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2; 4
+                                      ///< jst4_J with jst, 3 with jst_symmetric
+  std::string integrator = "auto";    ///< heun, verlet; auto: heun with the scheme "thesis", else verlet
   /// sigma of (3.93) with heun, the share of the critical step with verlet; absent: 0.3, 0.8
   std::optional<double> cfl{};
   bool momentum_projection = true;
@@ -153,7 +155,7 @@ struct ErrorNorms {
 
 /// What a run came to; keys of summary.json carry the same names.
 struct Summary {
-  std::string formulation, scheme;
+  std::string formulation, scheme, dissipation; ///< dissipation "none" where its constants are zero
   std::int64_t particles = 0;
   double neighbours_mean = 0;
   double support = 0; ///< largest kernel radius, m
@@ -193,6 +195,8 @@ struct Outputs {
 
 /// The formulation a scene is run in: "auto" means {p, F}, and {p, F, J} from a Poisson's ratio of 0.49 on.
 std::string chosen_formulation(const SceneSpec& scene);
+/// The dissipation a scene is run with: "auto" means its scheme's own.
+std::string chosen_dissipation(const SceneSpec& scene);
 
 std::string chosen_integrator(const SceneSpec& scene);
 double chosen_cfl(const SceneSpec& scene);

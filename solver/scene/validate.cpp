@@ -64,21 +64,27 @@ void validate_constants(const MaterialSpec& m, const Where& where) {
   }
 }
 
-/// Each scheme has its own.
+/// Each dissipation has constants of its own.
 void validate_dissipation(const SceneSpec& scene,
                           const std::function<std::string(const std::string&)>& where) {
-  const auto belongs_to = [&](const std::string& scheme, const std::string& key, bool given,
-                              const std::string& its_own) {
-    require(!given || scene.scheme == scheme,
-            fmt::format("solver.{} is given, but the scheme is \"{}\"", key, scene.scheme),
+  one_of(scene.dissipation, {"auto", "jst", "jst_symmetric", "linear_residual"}, "solver.dissipation",
+         where("solver.dissipation"));
+  const std::string chosen = chosen_dissipation(scene);
+  const auto belongs_to = [&](const std::vector<std::string>& owners, const std::string& key, bool given,
+                              const std::string& instead) {
+    require(!given || std::find(owners.begin(), owners.end(), chosen) != owners.end(),
+            fmt::format("solver.{} is given, but the dissipation is \"{}\"", key, chosen),
             where(fmt::format("solver.{}", key)),
-            fmt::format("its dissipation goes by solver.{}; or choose scheme = \"{}\"", its_own, scheme));
+            fmt::format("{}; or choose solver.dissipation = \"{}\"", instead, fmt::join(owners, "\" or \"")));
   };
-  belongs_to("thesis", "jst4", scene.jst4.has_value(), "residual");
-  belongs_to("thesis", "jst2", scene.jst2 != 0, "residual");
-  belongs_to("thesis", "jst4_J", scene.jst4_J.has_value(), "residual_J");
-  belongs_to("consistent", "residual", scene.residual.has_value(), "jst4");
-  belongs_to("consistent", "residual_J", scene.residual_J.has_value(), "jst4_J");
+  const bool residual = chosen == "linear_residual";
+  const auto its_own = [&](const std::string& key) { return fmt::format("its constant is solver.{}", key); };
+  const std::vector<std::string> jst = {"jst", "jst_symmetric"};
+  belongs_to(jst, "jst4", scene.jst4.has_value(), its_own("residual"));
+  belongs_to(jst, "jst4_J", scene.jst4_J.has_value(), its_own("residual_J"));
+  belongs_to({"jst"}, "jst2", scene.jst2 != 0, residual ? its_own("residual") : "it has no shock term");
+  belongs_to({"linear_residual"}, "residual", scene.residual.has_value(), its_own("jst4"));
+  belongs_to({"linear_residual"}, "residual_J", scene.residual_J.has_value(), its_own("jst4_J"));
 
   const auto ramp = [&](const std::string& key, const std::optional<PlasticRamp>& value, double most) {
     if (!value)

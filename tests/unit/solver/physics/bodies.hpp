@@ -4,6 +4,7 @@
 #include "solver/operators/support.hpp"
 #include "solver/physics/body.hpp"
 #include "solver/physics/jst.hpp"
+#include "solver/physics/jst_symmetric.hpp"
 #include "solver/physics/materials/neo_hookean.hpp"
 #include "solver/physics/residual_dissipation.hpp"
 #include "tests/support/clouds.hpp"
@@ -24,10 +25,10 @@ make_body(const ParticleCloud& cloud, Dissipation dissipation,
   std::vector<Vec<D>> X;
   for (const Vec3& x : cloud.X)
     X.push_back(x.head<D>());
-  if constexpr (requires { dissipation.laplacian; })
-    dissipation.laplacian = build_laplacian<D>(cloud.X, cloud.V, graph);
-  if constexpr (Dissipation::looks_at_gradient)
+  if constexpr (requires { dissipation.weigh(cloud.X, cloud.V, graph); })
     dissipation.weigh(cloud.X, cloud.V, graph);
+  else if constexpr (requires { dissipation.laplacian; })
+    dissipation.laplacian = build_laplacian<D>(cloud.X, cloud.V, graph);
   const NeoHookean law{ElasticConstants::from(17e6, 0.45)};
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   BodyParts<D, Dissipation> parts{std::move(X),

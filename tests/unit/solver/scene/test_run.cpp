@@ -160,6 +160,40 @@ TEST(Run, ElasticScenesRunInThePlaneAndWithoutDissipation) {
   }
 }
 
+TEST(Run, EveryDissipationStandsWithEitherSchemeDownToSixNeighbours) {
+  // Support 1.2: six neighbours inside, three at a corner, where there is no Laplacian.
+  const auto cloud = test::box_lattice(6, 6, 6, Vec3(1, 1, 1));
+  SceneSpec scene;
+  scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
+  scene.end_time = 0.01;
+  scene.boundary = {{BoundaryCondition::Kind::fixed, "base"}};
+  scene.initial.push_back(
+      {"all", Formulas{Expression("-20*Z*(Y-0.5)"), Expression("20*Z*(X-0.5)"), Expression("0")}});
+  scene.probes = {{"turned", "angle", "mean", "top", std::nullopt, Vec3(0.5, 0.5, 0)}};
+  for (const std::string formulation : {"pF", "pFJ"})
+    for (const std::string scheme : {"thesis", "consistent"})
+      for (const std::string dissipation : {"jst", "jst_symmetric", "linear_residual"})
+        for (const double support : {1.2, 1.6, 2.2}) {
+          SCOPED_TRACE(testing::Message()
+                       << formulation << ' ' << scheme << ' ' << dissipation << ' ' << support);
+          scene.formulation = formulation;
+          scene.scheme = scheme;
+          scene.dissipation = dissipation;
+          scene.support = support;
+          const Summary summary = run(scene, cloud, {}, Progress::silent());
+          EXPECT_EQ(summary.dissipation, dissipation);
+          EXPECT_GT(summary.probes[0].second, 5); // degrees
+          EXPECT_GT(summary.energy.dissipated, 0);
+          EXPECT_LT(summary.energy.balance_error, 0.02);
+          const Forecast forecast = tessera::solver::forecast(scene, cloud);
+          EXPECT_EQ(std::any_of(forecast.left_out.begin(), forecast.left_out.end(),
+                                [](const std::string& line) {
+                                  return line.find("by 8 particles") != std::string::npos;
+                                }),
+                    support < 2 && dissipation != "linear_residual");
+        }
+}
+
 TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
   const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
   const Forecast forecast = tessera::solver::forecast(impact(), cloud);

@@ -117,25 +117,62 @@ TEST(Validate, RefusesHardeningThatIsNone) {
   EXPECT_NE(power(159e6, std::nan(""), 0.27), "");
 }
 
-TEST(Validate, EachSchemeHasItsOwnDissipation) {
-  const auto consistent = [](auto change) {
+TEST(Validate, EachDissipationHasItsOwnConstants) {
+  const auto with = [](const std::string& scheme, const std::string& dissipation, auto change) {
     return message([&](SceneSpec& s) {
-      s.scheme = "consistent";
-      s.jst4.reset();
+      s.scheme = scheme;
+      s.dissipation = dissipation;
+      s.formulation = "pFJ";
       change(s);
     });
   };
-  EXPECT_EQ(consistent([](SceneSpec& s) { s.residual = PlasticRamp{1, 0.1, 0.5}; }), "");
-  EXPECT_EQ(consistent([](SceneSpec& s) { s.jst4 = Kappa4{}; }),
-            "solver.jst4 is given, but the scheme is \"consistent\", case.toml:solver.jst4, its dissipation "
-            "goes by solver.residual; or choose scheme = \"thesis\"");
-  EXPECT_NE(consistent([](SceneSpec& s) { s.jst2 = 1; }), "");
-  EXPECT_NE(consistent([](SceneSpec& s) { s.residual = PlasticRamp::constant(5); }), "");
-  EXPECT_NE(consistent([](SceneSpec& s) { s.residual = PlasticRamp{1, 1, 0}; }), "");
-  EXPECT_NE(consistent([](SceneSpec& s) { s.residual_J = 1; }), ""); // J is not evolved
-  EXPECT_EQ(message([](SceneSpec& s) { s.residual = PlasticRamp{}; }),
-            "solver.residual is given, but the scheme is \"thesis\", case.toml:solver.residual, its "
-            "dissipation goes by solver.jst4; or choose scheme = \"consistent\"");
+  const auto jst4 = [](SceneSpec& s) { s.jst4 = Kappa4{}; };
+  const auto jst4_J = [](SceneSpec& s) { s.jst4_J = 0.1; };
+  const auto jst2 = [](SceneSpec& s) { s.jst2 = 1; };
+  const auto residual = [](SceneSpec& s) { s.residual = PlasticRamp{1, 0.1, 0.5}; };
+  const auto residual_J = [](SceneSpec& s) { s.residual_J = 1; };
+  for (const std::string scheme : {"thesis", "consistent"}) {
+    EXPECT_EQ(with(scheme, "jst", jst4), "");
+    EXPECT_EQ(with(scheme, "jst", jst4_J), "");
+    EXPECT_EQ(with(scheme, "jst", jst2), "");
+    EXPECT_EQ(with(scheme, "jst_symmetric", jst4), "");
+    EXPECT_EQ(with(scheme, "jst_symmetric", jst4_J), "");
+    EXPECT_EQ(
+        with(scheme, "jst_symmetric", jst2),
+        "solver.jst2 is given, but the dissipation is \"jst_symmetric\", case.toml:solver.jst2, it has no "
+        "shock term; or choose solver.dissipation = \"jst\"");
+    EXPECT_EQ(with(scheme, "linear_residual", residual), "");
+    EXPECT_EQ(with(scheme, "linear_residual", residual_J), "");
+    EXPECT_EQ(with(scheme, "linear_residual", jst4),
+              "solver.jst4 is given, but the dissipation is \"linear_residual\", case.toml:solver.jst4, its "
+              "constant "
+              "is solver.residual; or choose solver.dissipation = \"jst\" or \"jst_symmetric\"");
+    EXPECT_NE(with(scheme, "linear_residual", jst4_J), "");
+    EXPECT_NE(with(scheme, "linear_residual", jst2), "");
+    for (const std::string jst : {"jst", "jst_symmetric"}) {
+      EXPECT_NE(with(scheme, jst, residual), "");
+      EXPECT_NE(with(scheme, jst, residual_J), "");
+    }
+  }
+  // The scheme's own.
+  EXPECT_EQ(with("consistent", "auto", residual), "");
+  EXPECT_NE(with("consistent", "auto", jst4), "");
+  EXPECT_EQ(with("thesis", "auto", jst2), "");
+  EXPECT_EQ(
+      with("thesis", "auto", residual),
+      "solver.residual is given, but the dissipation is \"jst\", case.toml:solver.residual, its constant is "
+      "solver.jst4; or choose solver.dissipation = \"linear_residual\"");
+  EXPECT_EQ(
+      with("thesis", "jst_symetric", [](SceneSpec&) {}),
+      "solver.dissipation is \"jst_symetric\", case.toml:solver.dissipation, did you mean \"jst_symmetric\"? "
+      "this version offers: auto, jst, jst_symmetric, linear_residual");
+  EXPECT_NE(with("consistent", "auto", [](SceneSpec& s) { s.residual = PlasticRamp::constant(5); }), "");
+  EXPECT_NE(with("consistent", "auto", [](SceneSpec& s) { s.residual = PlasticRamp{1, 1, 0}; }), "");
+  EXPECT_NE(message([](SceneSpec& s) { // J is not evolved
+              s.dissipation = "linear_residual";
+              s.residual_J = 1;
+            }),
+            "");
 }
 
 TEST(Validate, RefusesImpossibleValues) {
