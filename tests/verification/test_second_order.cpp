@@ -45,8 +45,11 @@ SceneSpec swinging_cube(const std::string& scheme) {
   return scene;
 }
 
-double velocity_error(const ParticleCloud& cloud, const std::string& scheme) {
-  return run(swinging_cube(scheme), cloud, {}, Progress::silent()).error->l2_velocity_relative;
+double velocity_error(const ParticleCloud& cloud, const std::string& scheme,
+                      const std::string& dissipation = "auto") {
+  SceneSpec scene = swinging_cube(scheme);
+  scene.dissipation = dissipation;
+  return run(scene, cloud, {}, Progress::silent()).error->l2_velocity_relative;
 }
 
 ParticleCloud lattice(int n) {
@@ -88,6 +91,11 @@ void second_order(double coarse, double fine, double at_most) {
 
 TEST(SecondOrder, OnALattice) {
   second_order(velocity_error(lattice(9), "consistent"), velocity_error(lattice(17), "consistent"), 0.0032);
+}
+
+TEST(SecondOrder, OnALatticeWithSymmetricJst) {
+  second_order(velocity_error(lattice(9), "consistent", "jst_symmetric"),
+               velocity_error(lattice(17), "consistent", "jst_symmetric"), 0.0032);
 }
 
 TEST(SecondOrder, OnAnIrregularCloudWhereTheThesisDoesNotConverge) {
