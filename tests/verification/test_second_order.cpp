@@ -58,24 +58,25 @@ ParticleCloud irregular(int n) {
   ParticleCloud cloud = test::jittered(lattice(n), 0.3, 1);
   const test::Tessellation cells(test::box_domain(), cloud.X);
   const preprocess::CellMeasures measures = preprocess::measure_cells(cells.voronoi);
-  for (ParticleSet& set : cloud.sets)
-    set.area.assign(set.area.size(), Vec3::Zero());
+  preprocess::Shares shares = measures.shares;
   for (std::size_t a = 0; a < cloud.X.size(); ++a) {
     cloud.V[a] = cells.volume(measures.volume[a]);
-    cloud.A[a].setZero();
-    for (const auto& share : measures.shares[a]) {
-      const Vec3 area = share.area * cells.body.scaling.area();
-      cloud.A[a] += area;
+    for (preprocess::SurfaceShare& share : shares[a])
+      share.area *= cells.body.scaling.area();
+  }
+  preprocess::balance_areas(cells.domain, cloud, shares);
+  for (ParticleSet& set : cloud.sets)
+    set.area.assign(set.area.size(), Vec3::Zero());
+  for (std::size_t a = 0; a < cloud.X.size(); ++a)
+    for (const preprocess::SurfaceShare& share : shares[a]) {
       const std::string& surface = cells.domain.surfaces[share.surface]; // "xmin"
       const std::string name = fmt::format("{}_{}", surface[0], surface.substr(1));
       for (ParticleSet& set : cloud.sets)
         if (set.name == name) {
           const auto at = std::find(set.particles.begin(), set.particles.end(), static_cast<std::int32_t>(a));
-          set.area.at(static_cast<std::size_t>(at - set.particles.begin())) += area;
+          set.area.at(static_cast<std::size_t>(at - set.particles.begin())) = share.area;
         }
     }
-  }
-  preprocess::balance_areas(cloud);
   return cloud;
 }
 
