@@ -198,11 +198,9 @@ std::vector<std::vector<std::int32_t>> surface_members(const Domain& domain, con
   return lying;
 }
 
-void gather_on_members(const std::vector<Vec3>& X, const std::vector<std::vector<std::int32_t>>& members,
+void gather_on_members(const ParticleCloud& cloud, const std::vector<std::vector<std::int32_t>>& members,
                        Shares& shares) {
-  const auto belongs = [&](std::int32_t particle, std::int32_t surface) {
-    return std::binary_search(members[surface].begin(), members[surface].end(), particle);
-  };
+  const std::size_t several = cloud.dimension == 3 ? 10 : 4;
   Shares gathered(shares.size());
   const auto give = [&](std::int32_t particle, const SurfaceShare& share) {
     auto& own = gathered[particle];
@@ -214,18 +212,29 @@ void gather_on_members(const std::vector<Vec3>& X, const std::vector<std::vector
     else
       own.insert(at, share);
   };
+  std::vector<double> weight, sorted;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(shares.size()); ++i)
     for (const SurfaceShare& share : shares[i]) {
       const auto& among = members[share.surface];
-      if (among.empty() || belongs(i, share.surface)) {
+      if (among.empty() || std::binary_search(among.begin(), among.end(), i)) {
         give(i, share);
         continue;
       }
-      give(*std::min_element(among.begin(), among.end(),
-                             [&](std::int32_t a, std::int32_t b) {
-                               return (X[a] - X[i]).squaredNorm() < (X[b] - X[i]).squaredNorm();
-                             }),
-           share);
+      weight.assign(among.size(), 0);
+      std::transform(among.begin(), among.end(), weight.begin(),
+                     [&](std::int32_t b) { return (cloud.X[b] - cloud.X[i]).norm(); });
+      sorted = weight;
+      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(several, sorted.size() - 1));
+      std::nth_element(sorted.begin(), last, sorted.end());
+      const double radius = *last * (1 + 1e-9); // so that one alone has a weight
+      double total = 0;
+      for (std::size_t k = 0; k < among.size(); ++k) {
+        weight[k] = cloud.V[among[k]] * std::max(0.0, 1 - weight[k] / radius);
+        total += weight[k];
+      }
+      for (std::size_t k = 0; k < among.size(); ++k)
+        if (weight[k] > 0)
+          give(among[k], {share.surface, weight[k] / total * share.area});
     }
   shares = std::move(gathered);
 }

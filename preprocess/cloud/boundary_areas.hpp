@@ -21,8 +21,9 @@ std::vector<std::vector<std::int32_t>> surface_members(const Domain& domain, con
                                                        const Shares& shares, bool owners_belong,
                                                        double least);
 
-/// Gives what others own of a surface to the nearest of its members.
-void gather_on_members(const std::vector<Vec3>& X, const std::vector<std::vector<std::int32_t>>& members,
+/// Gives what others own of a surface to its members near by, in proportion to their volumes: a small cell
+/// with much surface would be light and hard pushed.
+void gather_on_members(const ParticleCloud& cloud, const std::vector<std::vector<std::int32_t>>& members,
                        Shares& shares);
 
 /// Changes the shares as little as possible (least squares, weighted by 1 / |share|) and makes cloud.A their

@@ -227,7 +227,7 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   const double least = 1e-6 * std::pow(cloud.spacing, cloud.dimension - 1);
   const auto members = surface_members(domain, cad, particles.place, shares,
                                        request.arrangement == Arrangement::lattice, least);
-  gather_on_members(cloud.X, members, shares);
+  gather_on_members(cloud, members, shares);
   quality.area_correction = balance_areas(domain, cloud, shares);
   note_coarse_parts(cloud, quality, request, progress);
   if (request.subvolumes == Subvolumes::uniform) {
