@@ -15,7 +15,7 @@ from measures import number_or_blank, percent
 DENSITY, YOUNG, POISSON = 1100, 17e6, 0.3
 MU, LAMBDA = YOUNG / 2 / (1 + POISSON), YOUNG * POISSON / (1 + POISSON) / (1 - 2 * POISSON)
 KAPPA = LAMBDA + 2 * MU / 3
-WAVE, FREQUENCY, END = 100, 5000, 4e-4
+WAVE, FREQUENCY, END = 50, 5000, 4e-4
 PHASES = ("X+Y", "Y+Z", "Z+X")
 FACES = {"x_min": (-1, 0, 0), "x_max": (1, 0, 0), "y_min": (0, -1, 0), "y_max": (0, 1, 0), "z_min": (0, 0, -1),
          "z_max": (0, 0, 1), "inner_x": (1, 0, 0), "inner_y": (0, 1, 0)}

@@ -35,7 +35,7 @@ SceneSpec swinging_cube(const std::string& scheme) {
     return Formulas{one(0), one(1), one(2)};
   };
   scene.initial.push_back({"all", std::nullopt, times("5e-4")});
-  scene.exact = {times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
+  scene.exact = ExactSolution{times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
                  Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
                             "cos(_pi*Y/2)*cos(_pi*Z/2)")};
   for (const std::string axis : {"x", "y", "z"}) {
