@@ -1,6 +1,6 @@
 """A manufactured solution on a body that is not convex: every face loaded by formulas, displacement measured.
 
-u = A sin(w t) (sin k(X+Y), sin k(Y+Z), sin k(Z+X)), whose stress P gives tractions P N on the faces and the body force
+u = A sin(w t) (sin k(X+Y), sin k(Y+Z), sin k(Z+X)), whose stress P gives tractions P N on its faces and the body force
 u'' - Div P / rho. With a = A k sin(w t) cos k(X+Y) and so b, c, the deformation gradient is
 
     F = [1+a  a  0;  0  1+b  b;  c  0  1+c],   Lap u = -2 k^2 u,   grad a = -k^2 u_x (1, 1, 0), and so b, c.
@@ -8,8 +8,7 @@ u'' - Div P / rho. With a = A k sin(w t) cos k(X+Y) and so b, c, the deformation
 
 import math
 
-
-from common import number
+import vtu
 from measures import number_or_blank, percent
 
 DENSITY, YOUNG, POISSON = 1100, 17e6, 0.3
@@ -77,14 +76,60 @@ class Solution:
                             [product(H[i][j], grad_q[j]) for j in range(3)]) for i in range(3)]
         return P, divergence, f"{KAPPA}*({J}-1)"
 
-    def boundary(self, sliding=()):
-        entries = [dict(on="all", type="body_force", acceleration=self.force)]
+    def keys(self):
+        """What a case needs of it."""
+        boundary = [dict(type="body_force", acceleration=self.force)]
         for face, normal in FACES.items():
             axis = next(i for i in range(3) if normal[i])
-            entries.append(dict(on=face, type="traction",
-                                traction=[product(str(normal[axis]), self.P[i][axis]) for i in range(3)]))
-        return entries
+            traction = [product(str(normal[axis]), self.P[i][axis]) for i in range(3)]
+            boundary.append(dict(on=face, type="traction", traction=traction))
+        start = [v.replace(f"cos({FREQUENCY}*t)*", "") for v in self.v]
+        return dict(material__law=self.law, initial=[dict(velocity=start)], boundary=boundary,
+                    exact=dict(displacement=self.u, velocity=self.v, pressure=self.p))
 
-    def keys(self):
-        return dict(material__law=self.law, initial=[dict(velocity=[f"{v}".replace("cos(5000*t)", "1") for v in self.v])],
-                    boundary=self.boundary(), exact=dict(displacement=self.u, velocity=self.v, pressure=self.p))
+    def stress_error(self, run):
+        """Relative L2 error of Cauchy's stress in the last frame."""
+        scope = {"sin": math.sin, "cos": math.cos}
+        python = [[compile(term.replace("^", "**"), term[:20], "eval") for term in row] for row in self.P + self.F]
+        stress = vtu.read_array(run.frames()[-1][1], "Stress")
+        volume = vtu.read_array(run.folder / "cloud.vtp", "volume")
+        error = size = 0.0
+        for n, (X, Y, Z) in enumerate(vtu.read_points(run.folder / "cloud.vtp")):
+            rows = [[eval(term, scope, {"X": X, "Y": Y, "Z": Z, "t": run["time"]}) for term in row] for row in python]
+            P, F = rows[:3], rows[3:]
+            J = determinant(F)
+            for k, (i, j) in enumerate(((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))):
+                exact = sum(P[i][m] * F[j][m] for m in range(3)) / J
+                weight = volume[n] * (1 if i == j else 2)
+                error += weight * (stress[6 * n + k] - exact) ** 2
+                size += weight * exact**2
+        return math.sqrt(error / size)
+
+
+def determinant(F):
+    return (F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) - F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
+            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]))
+
+
+def manufactured(bench):
+    table = bench.grid("manufactured", "law", "cloud", "particles", "u", "order", "v", "order", "p", "order", "stress", "order")
+    for law, amplitude, counts in (("linear_elastic", 1e-6, (500, 1500, 4500, 12000)), ("neo_hookean", 1e-3, (500, 1500, 4500))):
+        solution = Solution(law, amplitude)
+        for relax_seeds in (0, 20):
+            last = None
+            for count in counts[:2] if bench.short else counts:
+                run = bench.run("l_part/manufactured.toml", f"{law}-{relax_seeds}-{count}", particles__count=count,
+                                particles__relax_seeds=relax_seeds, **solution.keys())
+                errors = [run[f"error.l2_{field}_relative"] for field in ("displacement", "velocity", "pressure")]
+                errors.append(solution.stress_error(run))
+                length = run["particles"] ** (-1 / 3)
+                orders = [None] * 4
+                if last:
+                    orders = [math.log(a / b) / math.log(last[0] / length) for a, b in zip(last[1], errors)]
+                    bench.require_above(f"order of the displacement, {law}, {count}", orders[0], 1.7)
+                cells = [cell for pair in zip(map(percent, errors), map(number_or_blank, orders)) for cell in pair]
+                table.row(law, "relaxed" if relax_seeds else "two-pass", run["particles"], *cells)
+                last = (length, errors)
+
+
+SCENES = {"manufactured": manufactured}
