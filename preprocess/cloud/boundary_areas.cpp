@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <iterator>
 #include <span>
 
 namespace tessera::preprocess {
@@ -174,70 +173,6 @@ Mat43 body_moments(const Frame& frame, int dimension, double volume) {
 }
 
 } // namespace
-
-std::vector<std::vector<std::int32_t>> surface_members(const Domain& domain, const CadTopology& cad,
-                                                       const std::vector<CadPlace>& place,
-                                                       const Shares& shares, bool owners_belong,
-                                                       double least) {
-  std::vector<std::vector<std::int32_t>> lying(domain.surfaces.size()), owning(domain.surfaces.size());
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    for (const std::int32_t s : cad.surfaces_of(place[i]))
-      lying[s].push_back(static_cast<std::int32_t>(i));
-    for (const SurfaceShare& share : shares[i])
-      if (share.area.norm() > least)
-        owning[share.surface].push_back(static_cast<std::int32_t>(i));
-  }
-  for (std::size_t s = 0; s < lying.size(); ++s) {
-    if (!owners_belong && !lying[s].empty())
-      continue;
-    std::vector<std::int32_t> all;
-    std::set_union(lying[s].begin(), lying[s].end(), owning[s].begin(), owning[s].end(),
-                   std::back_inserter(all));
-    lying[s] = std::move(all);
-  }
-  return lying;
-}
-
-void gather_on_members(const ParticleCloud& cloud, const std::vector<std::vector<std::int32_t>>& members,
-                       Shares& shares) {
-  const std::size_t several = cloud.dimension == 3 ? 10 : 4;
-  Shares gathered(shares.size());
-  const auto give = [&](std::int32_t particle, const SurfaceShare& share) {
-    auto& own = gathered[particle];
-    const auto at =
-        std::lower_bound(own.begin(), own.end(), share.surface,
-                         [](const SurfaceShare& one, std::int32_t surface) { return one.surface < surface; });
-    if (at != own.end() && at->surface == share.surface)
-      at->area += share.area;
-    else
-      own.insert(at, share);
-  };
-  std::vector<double> weight, sorted;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(shares.size()); ++i)
-    for (const SurfaceShare& share : shares[i]) {
-      const auto& among = members[share.surface];
-      if (among.empty() || std::binary_search(among.begin(), among.end(), i)) {
-        give(i, share);
-        continue;
-      }
-      weight.assign(among.size(), 0);
-      std::transform(among.begin(), among.end(), weight.begin(),
-                     [&](std::int32_t b) { return (cloud.X[b] - cloud.X[i]).norm(); });
-      sorted = weight;
-      const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(several, sorted.size() - 1));
-      std::nth_element(sorted.begin(), last, sorted.end());
-      const double radius = *last * (1 + 1e-9); // so that one alone has a weight
-      double total = 0;
-      for (std::size_t k = 0; k < among.size(); ++k) {
-        weight[k] = cloud.V[among[k]] * std::max(0.0, 1 - weight[k] / radius);
-        total += weight[k];
-      }
-      for (std::size_t k = 0; k < among.size(); ++k)
-        if (weight[k] > 0)
-          give(among[k], {share.surface, weight[k] / total * share.area});
-    }
-  shares = std::move(gathered);
-}
 
 double balance_areas(const Domain& domain, ParticleCloud& cloud, Shares& shares) {
   const std::vector<Surface> surfaces = surfaces_of(domain);

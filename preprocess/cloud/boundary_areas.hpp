@@ -1,30 +1,11 @@
-/// What the particles own of each CAD surface, as parts of area vectors that integrate linear fields exactly.
+/// Boundary areas that integrate linear fields exactly over the particles, and their parts by CAD surface.
 #pragma once
 
 #include "core/particle_cloud.hpp"
+#include "preprocess/cloud/surface_members.hpp"
 #include "preprocess/geometry/domain.hpp"
-#include "preprocess/voronoi/cad_topology.hpp"
-#include "preprocess/voronoi/cell_measures.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace tessera::preprocess {
-
-/// By particle: its parts of the surfaces, m^2, surfaces ascending.
-using Shares = std::vector<std::vector<SurfaceShare>>;
-
-/// The particles of each CAD surface, ascending: those that lie on it and, where `owners_belong` or none
-/// lies on it, those whose cells reach it. `least` (m^2): shares below it are rounding where a cell ends.
-std::vector<std::vector<std::int32_t>> surface_members(const Domain& domain, const CadTopology& cad,
-                                                       const std::vector<CadPlace>& place,
-                                                       const Shares& shares, bool owners_belong,
-                                                       double least);
-
-/// Gives what others own of a surface to its members near by, in proportion to their volumes: a small cell
-/// with much surface would be light and hard pushed.
-void gather_on_members(const ParticleCloud& cloud, const std::vector<std::vector<std::int32_t>>& members,
-                       Shares& shares);
 
 /// Changes the shares as little as possible (least squares, weighted by 1 / |share|) and makes cloud.A their
 /// sums, so that

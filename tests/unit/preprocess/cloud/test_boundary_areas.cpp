@@ -116,6 +116,33 @@ TEST(BalanceAreas, TheChangeOfAFlatSurfaceIsTheSmallestAlongItsNormal) {
   EXPECT_LE(std::abs(product), 1e-9 * size);
 }
 
+TEST(SurfaceMembers, TakeWhatOthersOwnByVolumeAndNearness) {
+  ParticleCloud cloud;
+  cloud.dimension = 2;
+  cloud.spacing = 1;
+  cloud.X = {Vec3(0, 0, 0), Vec3(1, 0, 0),  Vec3(2, 0, 0), Vec3(3, 0, 0),
+             Vec3(4, 0, 0), Vec3(50, 0, 0), Vec3(1, 1, 0)};
+  cloud.V = {1, 0.1, 2, 1, 1, 1, 1};
+  Shares shares(7);
+  shares[0] = {{0, Vec3(0, -1, 0)}};
+  shares[1] = {{1, Vec3(5, 0, 0)}};
+  shares[6] = {{0, Vec3(0, -2, 0)}, {1, Vec3(3, 0, 0)}};
+  gather_on_members(cloud, {{0, 1, 2, 3, 4, 5}, {}}, shares);
+  // Of the five nearest, at sqrt(2), 1, sqrt(2), sqrt(5) and sqrt(10), the last has no weight.
+  const double reach = std::sqrt(10), weight[] = {1 - std::sqrt(2) / reach, 0.1 * (1 - 1 / reach),
+                                                  2 * (1 - std::sqrt(2) / reach), 1 - std::sqrt(5) / reach};
+  const double total = weight[0] + weight[1] + weight[2] + weight[3];
+  EXPECT_NEAR(shares[0][0].area.y(), -1 - 2 * weight[0] / total, 1e-8);
+  EXPECT_NEAR(shares[1][0].area.y(), -2 * weight[1] / total, 1e-8);
+  EXPECT_EQ(shares[1][1].area, Vec3(5, 0, 0));
+  EXPECT_NEAR(shares[2][0].area.y(), -2 * weight[2] / total, 1e-8);
+  EXPECT_NEAR(shares[3][0].area.y(), -2 * weight[3] / total, 1e-8);
+  EXPECT_NEAR(shares[4][0].area.y(), 0, 1e-8);
+  EXPECT_TRUE(shares[5].empty());
+  ASSERT_EQ(shares[6].size(), 1u); // nobody else stands for the other surface
+  EXPECT_EQ(shares[6][0].area, Vec3(3, 0, 0));
+}
+
 TEST(BalanceAreas, SetsAreThePartsAndFlatOnesKeepTheirNormals) {
   for (const Domain& domain : {test::l_domain(), test::holed_domain(3), test::l_slab(), test::holed_slab(3)})
     for (const Arrangement arrangement : {Arrangement::voronoi, Arrangement::poisson}) {
