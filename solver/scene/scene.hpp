@@ -146,10 +146,10 @@ struct Extremes {
 struct ErrorNorms {
   double l1_displacement = 0, l2_displacement = 0; ///< m times m^3 and m^(3/2)
   double l2_displacement_relative = 0;             ///< over the norm of the exact displacement
-  double l1_velocity = 0, l2_velocity = 0; ///< m/s times m^3 and m^(3/2)
-  double l2_velocity_relative = 0;         ///< over the norm of the exact velocity
-  double l2_velocity_thesis = 0;           ///< sqrt(sum (V |e|)^2), which table 5.1 lists
-  double l1_pressure = 0, l2_pressure = 0; ///< Pa times m^3 and m^(3/2)
+  double l1_velocity = 0, l2_velocity = 0;         ///< m/s times m^3 and m^(3/2)
+  double l2_velocity_relative = 0;                 ///< over the norm of the exact velocity
+  double l2_velocity_thesis = 0;                   ///< sqrt(sum (V |e|)^2), which table 5.1 lists
+  double l1_pressure = 0, l2_pressure = 0;         ///< Pa times m^3 and m^(3/2)
   double l2_pressure_relative = 0;
 };
 

@@ -36,8 +36,8 @@ SceneSpec swinging_cube(const std::string& scheme) {
   };
   scene.initial.push_back({"all", std::nullopt, times("5e-4")});
   scene.exact = ExactSolution{times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
-                 Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
-                            "cos(_pi*Y/2)*cos(_pi*Z/2)")};
+                              Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
+                                         "cos(_pi*Y/2)*cos(_pi*Z/2)")};
   for (const std::string axis : {"x", "y", "z"}) {
     scene.boundary.push_back({BoundaryCondition::Kind::sliding, fmt::format("{}_min", axis)});
     scene.boundary.push_back({BoundaryCondition::Kind::skew_symmetric, fmt::format("{}_max", axis)});
