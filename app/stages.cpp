@@ -11,6 +11,7 @@
 #include "postprocess/picture.hpp"
 #include "postprocess/report.hpp"
 #include "preprocess/geometry/rigid_surface.hpp"
+#include "solver/scene/probe_values.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ solver::SceneSpec scene_with_surfaces(const Case& the_case, Console& console) {
   return scene;
 }
 
-void require_sets(const Case& the_case, const ParticleCloud& cloud) {
+void require_places(const Case& the_case, const ParticleCloud& cloud) {
   const auto require_set = [&](const std::string& name, const std::string& key) {
     if (name != "all")
       cloud.set(name, the_case.where(key));
@@ -65,7 +66,9 @@ void require_sets(const Case& the_case, const ParticleCloud& cloud) {
   for (std::size_t i = 0; i < scene.boundary.size(); ++i)
     require_set(scene.boundary[i].on, fmt::format("boundary.{}.on", i));
   for (std::size_t i = 0; i < scene.probes.size(); ++i)
-    if (!scene.probes[i].at)
+    if (scene.probes[i].at)
+      solver::ProbeReader(scene.probes[i], cloud); // refuses points outside
+    else
       require_set(scene.probes[i].on, fmt::format("output.probe.{}.on", i));
 }
 
@@ -81,7 +84,7 @@ preprocess::Prepared prepare_particles(const Case& the_case, bool cells, Console
                                             : domain.volume / std::pow(request.spacing, domain.dimension);
   request.keep_cells = cells || expected < static_cast<double>(post::most_cells_drawn);
   preprocess::Prepared prepared = preprocess::prepare(domain, request, console.progress());
-  require_sets(the_case, prepared.cloud);
+  require_places(the_case, prepared.cloud);
   stop_if_interrupted("preparation");
   return prepared;
 }
@@ -98,7 +101,7 @@ void begin_results(const Case& the_case, const Options& options, const preproces
 
 Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const fs::path& folder,
                          Console& console) {
-  require_sets(the_case, cloud);
+  require_places(the_case, cloud);
   const solver::SceneSpec scene = scene_with_surfaces(the_case, console);
   io::FrameSeries series(folder);
   io::HistoryFile history(folder / "history.csv");

@@ -17,8 +17,9 @@ void require_cad_file(const Case& the_case);
 /// The case's scene with the surfaces of its walls imported.
 solver::SceneSpec scene_with_surfaces(const Case& the_case, Console& console);
 
-/// InputError naming the key of the case when a set it speaks of is not one of the cloud's.
-void require_sets(const Case& the_case, const ParticleCloud& cloud);
+/// InputError when a set the case speaks of is not one of the cloud's (naming the key), or a probe's point
+/// lies outside of it.
+void require_places(const Case& the_case, const ParticleCloud& cloud);
 
 /// Where the case's results go, for begin_results() once there are any.
 std::filesystem::path results_folder(const Case& the_case, const Options& options);

@@ -122,10 +122,19 @@ solver::BoundaryCondition read_boundary(Table boundary) {
 }
 
 solver::ExactSolution read_exact(Table exact) {
-  const std::array<std::string, 3> velocity = exact.formulas("velocity");
-  const std::string pressure = exact.formula("pressure");
+  solver::ExactSolution solution;
+  if (const auto formulas = exact.optional_formulas("displacement"))
+    solution.displacement = parse(exact, "displacement", *formulas);
+  if (const auto formulas = exact.optional_formulas("velocity"))
+    solution.velocity = parse(exact, "velocity", *formulas);
+  if (exact.has("pressure"))
+    solution.pressure = parse(exact, "pressure", "pressure", exact.formula("pressure"));
+  else
+    exact.allow("pressure");
   exact.finish();
-  return {parse(exact, "velocity", velocity), parse(exact, "pressure", "pressure", pressure)};
+  if (!solution.displacement && !solution.velocity && !solution.pressure)
+    exact.refuse("", "[exact] gives no field to compare with", "give displacement, velocity or pressure");
+  return solution;
 }
 
 } // namespace tessera::app

@@ -13,7 +13,7 @@ void check(const Options& options) {
   const preprocess::Domain domain = preprocess::import_geometry(the_case.geometry, console.progress());
   stop_if_interrupted("import");
   const preprocess::Prepared prepared = preprocess::prepare(domain, the_case.particles, console.progress());
-  require_sets(the_case, prepared.cloud);
+  require_places(the_case, prepared.cloud);
   stop_if_interrupted("preparation");
 
   Outlook outlook;

@@ -23,7 +23,7 @@ void solve(const Options& options) {
   else
     require_cad_file(the_case);
   if (cloud)
-    require_sets(the_case, *cloud);
+    require_places(the_case, *cloud);
   const RunFolder place(folder);
   console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
 

@@ -76,7 +76,7 @@ const char* name_of(Arrangement arrangement) {
 }
 
 void fill_geometry(const TetBody& body, const Arranged& arranged, const CellMeasures& measures,
-                   const ParticleRequest& request, ParticleCloud& cloud) {
+                   const Shares& shares, const ParticleRequest& request, ParticleCloud& cloud) {
   const Scaling& scaling = body.scaling;
   const std::int64_t n = arranged.size();
   cloud.dimension = body.domain->dimension;
@@ -96,9 +96,17 @@ void fill_geometry(const TetBody& body, const Arranged& arranged, const CellMeas
     cloud.V[i] = measures.volume[i] * scaling.volume();
     cloud.centroid[i] = arranged.X[i] + measures.moment[i] / measures.volume[i] * scaling.length;
     cloud.cad_dimension[i] = arranged.place[i].dimension;
-    for (const SurfaceShare& share : measures.shares[i])
-      cloud.A[i] += share.area * scaling.area();
+    for (const SurfaceShare& share : shares[i])
+      cloud.A[i] += share.area;
   });
+}
+
+Shares in_metres(const CellMeasures& measures, const Scaling& scaling) {
+  Shares shares = measures.shares;
+  for (auto& of_cell : shares)
+    for (SurfaceShare& share : of_cell)
+      share.area *= scaling.area();
+  return shares;
 }
 
 void check_volume(const Quality& quality) {
@@ -205,7 +213,8 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   const Tessellated cells = tessellate(body, request, particles, result.cells, watch, progress);
   ParticleCloud& cloud = result.cloud;
   Quality& quality = result.quality;
-  fill_geometry(body, particles, cells.measures, request, cloud);
+  Shares shares = in_metres(cells.measures, body.scaling);
+  fill_geometry(body, particles, cells.measures, shares, request, cloud);
   quality.closure_error = cells.measures.closure_error;
   quality.disconnected_cells = cells.measures.disconnected;
   quality.inserted_particles = cells.inserted;
@@ -214,7 +223,12 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   quality.corner_particles = std::count(cloud.cad_dimension.begin(), cloud.cad_dimension.end(), 0);
   assess_cells(domain, cloud, quality);
   check_volume(quality);
-  quality.area_correction = balance_areas(cloud);
+  // Lattices pass by oblique and curved surfaces: there, whoever owns area of a surface belongs to it.
+  const double least = 1e-6 * std::pow(cloud.spacing, cloud.dimension - 1);
+  const auto members = surface_members(domain, cad, particles.place, shares,
+                                       request.arrangement == Arrangement::lattice, least);
+  gather_on_members(cloud, members, shares);
+  quality.area_correction = balance_areas(domain, cloud, shares);
   note_coarse_parts(cloud, quality, request, progress);
   if (request.subvolumes == Subvolumes::uniform) {
     // The cells proved exact above; the particles share the volume alike all the same.
@@ -229,12 +243,7 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
   watch.lap("visibility");
   stop_if_interrupted("preparing particles");
 
-  auto shares = cells.measures.shares;
-  for (auto& of_cell : shares)
-    for (auto& share : of_cell)
-      share.area *= body.scaling.area();
-  const SetSource source{domain,          cad,    cloud,
-                         particles.place, shares, request.arrangement == Arrangement::lattice};
+  const SetSource source{domain, cad, cloud, particles.place, shares, members};
   cloud.sets = group_sets(source);
   for (const SetSelector& selector : request.sets)
     cloud.sets.push_back(selected_set(source, selector));

@@ -25,48 +25,25 @@ std::int32_t nearest(const ParticleCloud& cloud, const Vec3& point) {
   return best;
 }
 
-std::int32_t nearest_of(const ParticleCloud& cloud, const std::vector<std::int32_t>& among,
-                        const Vec3& point) {
-  return *std::min_element(among.begin(), among.end(), [&](std::int32_t a, std::int32_t b) {
-    return (cloud.X[a] - point).squaredNorm() < (cloud.X[b] - point).squaredNorm();
-  });
-}
-
 ParticleSet set_of(const std::string& name, const std::set<std::int32_t>& particles) {
   return {name, {particles.begin(), particles.end()}, {}};
 }
 
-/// Every share of the surfaces goes to its owner, or to the nearest particle of the set.
+/// The set's particles' shares of the surfaces.
 void give_areas(const SetSource& source, const std::vector<std::int32_t>& surfaces, ParticleSet& set) {
   set.area.assign(set.particles.size(), Vec3::Zero());
-  for (std::int32_t i = 0; i < source.cloud.size(); ++i)
-    for (const SurfaceShare& share : source.shares[i]) {
-      if (!contains(surfaces, share.surface))
-        continue;
-      auto at = std::lower_bound(set.particles.begin(), set.particles.end(), i);
-      if (at == set.particles.end() || *at != i)
-        at = std::lower_bound(set.particles.begin(), set.particles.end(),
-                              nearest_of(source.cloud, set.particles, source.cloud.X[i]));
-      set.area[at - set.particles.begin()] += share.area;
-    }
+  for (std::size_t k = 0; k < set.particles.size(); ++k)
+    for (const SurfaceShare& share : source.shares[set.particles[k]])
+      if (contains(surfaces, share.surface))
+        set.area[k] += share.area;
 }
 
 ParticleSet surface_set(const SetSource& source, const std::string& name,
                         const std::vector<std::int32_t>& surfaces) {
-  // Smaller shares than this are rounding where a cell ends at the surface.
-  const double least = 1e-6 * std::pow(source.cloud.spacing, source.cloud.dimension - 1);
-  std::set<std::int32_t> lying, owning;
-  for (std::int32_t i = 0; i < source.cloud.size(); ++i) {
-    for (const std::int32_t s : source.cad.surfaces_of(source.place[i]))
-      if (contains(surfaces, s))
-        lying.insert(i);
-    for (const SurfaceShare& share : source.shares[i])
-      if (contains(surfaces, share.surface) && share.area.norm() > least)
-        owning.insert(i);
-  }
-  if (source.owners_belong || lying.empty())
-    lying.merge(owning);
-  ParticleSet set = set_of(name, lying);
+  std::set<std::int32_t> members;
+  for (const std::int32_t surface : surfaces)
+    members.insert(source.members[surface].begin(), source.members[surface].end());
+  ParticleSet set = set_of(name, members);
   if (!set.particles.empty())
     give_areas(source, surfaces, set);
   return set;
@@ -185,13 +162,11 @@ ParticleSet selected_set(const SetSource& source, const SetSelector& selector) {
       if (std::abs(unit.dot(cloud.X[i] - plane->point)) <= tolerance)
         set.particles.push_back(i);
     surfaces = surfaces_in(source, plane->point, unit, tolerance);
-    if (source.owners_belong && !surfaces.empty()) {
-      // A lattice may pass by the surface that lies in the plane: whoever owns some of it is meant too.
-      const ParticleSet owners = surface_set(source, selector.name, surfaces);
-      std::set<std::int32_t> members(set.particles.begin(), set.particles.end());
-      members.insert(owners.particles.begin(), owners.particles.end());
-      set.particles.assign(members.begin(), members.end());
-    }
+    // A lattice may pass by the surface that lies in the plane: whoever owns some of it is meant too.
+    std::set<std::int32_t> members(set.particles.begin(), set.particles.end());
+    for (const std::int32_t surface : surfaces)
+      members.insert(source.members[surface].begin(), source.members[surface].end());
+    set.particles.assign(members.begin(), members.end());
   } else if (const auto* box = std::get_if<BoxSelector>(&selector.where)) {
     for (std::int32_t i = 0; i < cloud.size(); ++i)
       if (((cloud.X[i] - box->lower).array() >= -tolerance).all() &&

@@ -3,30 +3,62 @@
 #include <cmath>
 
 namespace tessera::solver {
+namespace {
+
+struct Sums {
+  double l1 = 0, l2 = 0; ///< of the error
+  double l2_thesis = 0;  ///< with each |e| multiplied by V before it is squared
+  double scale = 0;      ///< of the exact field
+  double relative() const { return scale > 0 ? l2 / scale : 0; }
+};
+
+/// Sums over the particles of a field of as many components as there are formulas.
+Sums sums(std::span<const Expression> exact, double time, const ParticleCloud& cloud,
+          std::span<const double> values) {
+  Sums s;
+  for (std::size_t a = 0; a < cloud.X.size(); ++a) {
+    double error = 0, size = 0;
+    for (std::size_t c = 0; c < exact.size(); ++c) {
+      const double value = exact[c](cloud.X[a], time);
+      error += std::pow(values[exact.size() * a + c] - value, 2);
+      size += value * value;
+    }
+    const double V = cloud.V[a];
+    s.l1 += V * std::sqrt(error);
+    s.l2 += V * error;
+    s.l2_thesis += V * V * error;
+    s.scale += V * size;
+  }
+  s.l2 = std::sqrt(s.l2);
+  s.l2_thesis = std::sqrt(s.l2_thesis);
+  s.scale = std::sqrt(s.scale);
+  return s;
+}
+
+} // namespace
 
 ErrorNorms error_norms(const ExactSolution& exact, double time, const ParticleCloud& cloud,
-                       std::span<const double> velocity, std::span<const double> pressure) {
+                       const FinalFields& fields) {
   ErrorNorms norms;
-  double velocity_scale = 0, pressure_scale = 0;
-  for (std::size_t a = 0; a < cloud.X.size(); ++a) {
-    const Vec3& X = cloud.X[a];
-    const double V = cloud.V[a];
-    const Vec3 v(exact.velocity[0](X, time), exact.velocity[1](X, time), exact.velocity[2](X, time));
-    const double of_v = (Vec3(velocity[3 * a], velocity[3 * a + 1], velocity[3 * a + 2]) - v).norm();
-    const double p = exact.pressure(X, time), of_p = std::abs(pressure[a] - p);
-    norms.l1_velocity += V * of_v;
-    norms.l2_velocity += V * of_v * of_v;
-    norms.l2_velocity_thesis += V * of_v * V * of_v;
-    norms.l1_pressure += V * of_p;
-    norms.l2_pressure += V * of_p * of_p;
-    velocity_scale += V * v.squaredNorm();
-    pressure_scale += V * p * p;
+  if (exact.displacement) {
+    const Sums s = sums(*exact.displacement, time, cloud, fields.displacement);
+    norms.l1_displacement = s.l1;
+    norms.l2_displacement = s.l2;
+    norms.l2_displacement_relative = s.relative();
   }
-  norms.l2_velocity = std::sqrt(norms.l2_velocity);
-  norms.l2_velocity_thesis = std::sqrt(norms.l2_velocity_thesis);
-  norms.l2_pressure = std::sqrt(norms.l2_pressure);
-  norms.l2_velocity_relative = velocity_scale > 0 ? norms.l2_velocity / std::sqrt(velocity_scale) : 0;
-  norms.l2_pressure_relative = pressure_scale > 0 ? norms.l2_pressure / std::sqrt(pressure_scale) : 0;
+  if (exact.velocity) {
+    const Sums s = sums(*exact.velocity, time, cloud, fields.velocity);
+    norms.l1_velocity = s.l1;
+    norms.l2_velocity = s.l2;
+    norms.l2_velocity_thesis = s.l2_thesis;
+    norms.l2_velocity_relative = s.relative();
+  }
+  if (exact.pressure) {
+    const Sums s = sums({&*exact.pressure, 1}, time, cloud, fields.pressure);
+    norms.l1_pressure = s.l1;
+    norms.l2_pressure = s.l2;
+    norms.l2_pressure_relative = s.relative();
+  }
   return norms;
 }
 

@@ -8,9 +8,16 @@
 
 namespace tessera::solver {
 
-/// Norms (5.3) at `time` (s), relative ones over the norm of the exact field. `velocity`: particles x 3, m/s;
-/// `pressure`: Pa. Evaluated at the reference positions.
+/// A run's last fields, particle by particle.
+struct FinalFields {
+  std::span<const double> displacement; ///< particles x 3, m
+  std::span<const double> velocity;     ///< particles x 3, m/s
+  std::span<const double> pressure;     ///< Pa
+};
+
+/// Norms (5.3) at `time` (s), relative ones over the norm of the exact field. Evaluated at the reference
+/// positions.
 ErrorNorms error_norms(const ExactSolution& exact, double time, const ParticleCloud& cloud,
-                       std::span<const double> velocity, std::span<const double> pressure);
+                       const FinalFields& fields);
 
 } // namespace tessera::solver

@@ -76,7 +76,8 @@ class Reporter {
                                   probes_[i].read(arrays_.probe_fields(cloud_)));
     if (scene_.exact) {
       const ProbeFields fields = arrays_.probe_fields(cloud_);
-      summary.error = error_norms(*scene_.exact, summary.time, cloud_, fields.velocity, fields.pressure);
+      summary.error = error_norms(*scene_.exact, summary.time, cloud_,
+                                  {fields.displacement, fields.velocity, fields.pressure});
     }
   }
 

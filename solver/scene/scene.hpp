@@ -86,10 +86,11 @@ struct Probe {
   Vec3 centre = Vec3::Zero(); ///< the axis of radius and angle passes through it, m
 };
 
-/// A closed form to measure a run by.
+/// A closed form to measure a run by, as far as it is known.
 struct ExactSolution {
-  Formulas velocity;   ///< m/s
-  Expression pressure; ///< tr sigma / 3, Pa
+  std::optional<Formulas> velocity{};     ///< m/s
+  std::optional<Expression> pressure{};   ///< tr sigma / 3, Pa
+  std::optional<Formulas> displacement{}; ///< m
 };
 
 /// Found by measurement (docs/theory.md).
@@ -144,12 +145,15 @@ struct Extremes {
   double jacobian = std::numeric_limits<double>::infinity();  ///< the smallest
 };
 
-/// Differences from the exact solution at the end, (5.3): L1 = sum V |e|, L2 = sqrt(sum V |e|^2).
+/// Differences from the exact solution at the end, (5.3): L1 = sum V |e|, L2 = sqrt(sum V |e|^2). Zero of
+/// fields it does not give.
 struct ErrorNorms {
-  double l1_velocity = 0, l2_velocity = 0; ///< m/s times m^3 and m^(3/2)
-  double l2_velocity_relative = 0;         ///< over the norm of the exact velocity
-  double l2_velocity_thesis = 0;           ///< sqrt(sum (V |e|)^2), which table 5.1 lists
-  double l1_pressure = 0, l2_pressure = 0; ///< Pa times m^3 and m^(3/2)
+  double l1_displacement = 0, l2_displacement = 0; ///< m times m^3 and m^(3/2)
+  double l2_displacement_relative = 0;             ///< over the norm of the exact displacement
+  double l1_velocity = 0, l2_velocity = 0;         ///< m/s times m^3 and m^(3/2)
+  double l2_velocity_relative = 0;                 ///< over the norm of the exact velocity
+  double l2_velocity_thesis = 0;                   ///< sqrt(sum (V |e|)^2), which table 5.1 lists
+  double l1_pressure = 0, l2_pressure = 0;         ///< Pa times m^3 and m^(3/2)
   double l2_pressure_relative = 0;
 };
 

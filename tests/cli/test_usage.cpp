@@ -159,5 +159,15 @@ TEST(Usage, SetsThatDoNotExistAreNamedWithTheirPlace) {
                {"'fot'", "did you mean 'foot'", "case.toml:" + std::to_string(line_of("on = \"foot\""))});
 }
 
+TEST(Usage, ProbesOutsideTheBodyAreFoundByCheckToo) {
+  const Workplace place;
+  write_small_case(place);
+  place.write("inside.toml", with("reduce = \"mean\"\non = \"foot\"", "at = [0.005, 0.005, 0.01]"));
+  place.write("case.toml", with("reduce = \"mean\"\non = \"foot\"", "at = [0.005, 0.005, 0.03]"));
+  expect_error(place.tessera({"check", "case.toml", "--quiet"}),
+               {"(0.005, 0.005, 0.03) m lies outside the body", "move it into the body"});
+  EXPECT_EQ(place.tessera({"check", "inside.toml", "--quiet"}).status, 0);
+}
+
 } // namespace
 } // namespace tessera::cli

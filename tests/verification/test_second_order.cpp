@@ -35,9 +35,9 @@ SceneSpec swinging_cube(const std::string& scheme) {
     return Formulas{one(0), one(1), one(2)};
   };
   scene.initial.push_back({"all", std::nullopt, times("5e-4")});
-  scene.exact = {times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
-                 Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
-                            "cos(_pi*Y/2)*cos(_pi*Z/2)")};
+  scene.exact = ExactSolution{times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
+                              Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
+                                         "cos(_pi*Y/2)*cos(_pi*Z/2)")};
   for (const std::string axis : {"x", "y", "z"}) {
     scene.boundary.push_back({BoundaryCondition::Kind::sliding, fmt::format("{}_min", axis)});
     scene.boundary.push_back({BoundaryCondition::Kind::skew_symmetric, fmt::format("{}_max", axis)});
@@ -61,24 +61,25 @@ ParticleCloud irregular(int n) {
   ParticleCloud cloud = test::jittered(lattice(n), 0.3, 1);
   const test::Tessellation cells(test::box_domain(), cloud.X);
   const preprocess::CellMeasures measures = preprocess::measure_cells(cells.voronoi);
-  for (ParticleSet& set : cloud.sets)
-    set.area.assign(set.area.size(), Vec3::Zero());
+  preprocess::Shares shares = measures.shares;
   for (std::size_t a = 0; a < cloud.X.size(); ++a) {
     cloud.V[a] = cells.volume(measures.volume[a]);
-    cloud.A[a].setZero();
-    for (const auto& share : measures.shares[a]) {
-      const Vec3 area = share.area * cells.body.scaling.area();
-      cloud.A[a] += area;
+    for (preprocess::SurfaceShare& share : shares[a])
+      share.area *= cells.body.scaling.area();
+  }
+  preprocess::balance_areas(cells.domain, cloud, shares);
+  for (ParticleSet& set : cloud.sets)
+    set.area.assign(set.area.size(), Vec3::Zero());
+  for (std::size_t a = 0; a < cloud.X.size(); ++a)
+    for (const preprocess::SurfaceShare& share : shares[a]) {
       const std::string& surface = cells.domain.surfaces[share.surface]; // "xmin"
       const std::string name = fmt::format("{}_{}", surface[0], surface.substr(1));
       for (ParticleSet& set : cloud.sets)
         if (set.name == name) {
           const auto at = std::find(set.particles.begin(), set.particles.end(), static_cast<std::int32_t>(a));
-          set.area.at(static_cast<std::size_t>(at - set.particles.begin())) += area;
+          set.area.at(static_cast<std::size_t>(at - set.particles.begin())) = share.area;
         }
     }
-  }
-  preprocess::balance_areas(cloud);
   return cloud;
 }
 

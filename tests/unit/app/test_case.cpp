@@ -239,6 +239,24 @@ TEST(Case, ThoseOfTheProjectAreValid) {
   EXPECT_GE(cases, 4);
 }
 
+TEST(Case, ExactSolutionsMayGiveAnyOfTheirFields) {
+  const auto exact = [](const std::string& keys) {
+    return read_text_case(complete_case + "[exact]\n" + keys).scene.exact.value();
+  };
+  const solver::ExactSolution one = exact("displacement = [\"X*t\", 0, 2]\n");
+  EXPECT_EQ(one.displacement->at(0)(Vec3(3, 0, 0), 2), 6);
+  EXPECT_FALSE(one.velocity);
+  EXPECT_FALSE(one.pressure);
+  const solver::ExactSolution two = exact("velocity = [0, 1, 0]\npressure = \"Y\"\n");
+  EXPECT_EQ(two.velocity->at(1)(Vec3::Zero()), 1);
+  EXPECT_EQ((*two.pressure)(Vec3(0, 4, 0)), 4);
+  EXPECT_FALSE(two.displacement);
+  EXPECT_NE(message(complete_case + "[exact]\n").find("give displacement, velocity or pressure"),
+            std::string::npos);
+  EXPECT_NE(message(complete_case + "[exact]\npresure = 1\n").find("did you mean 'pressure'"),
+            std::string::npos);
+}
+
 TEST(Overrides, WordsNeedNoQuotes) {
   const Case c = read_text_case(complete_case, {"particles.arrangement=voronoi", "title=two words",
                                                 "set.0.name=\"q\"", "boundary.0.on=q"});
