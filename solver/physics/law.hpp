@@ -79,7 +79,8 @@ Mat3 elastic_piola(const L& law, const Strain& strain, const typename L::History
 /// Its change, Pa, by a small change of the strain with the displacement gradient grad_u, by central
 /// differences; H and J change with F.
 template <ConstitutiveLaw L>
-Mat3 differential(const L& law, const typename L::History& history, const Strain& strain, const Mat3& grad_u) {
+Mat3 differential(const L& law, const typename L::History& history, const Strain& strain,
+                  const Mat3& grad_u) {
   const double size = grad_u.norm();
   if (size == 0)
     return Mat3::Zero();

@@ -62,7 +62,8 @@ class MaterialOf final : public Material<D> {
   void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u,
                      std::span<Mat<D>> dP) const override {
     for_each(static_cast<std::int64_t>(dP.size()), [&](std::int64_t a) {
-      dP[a] = differential(law_, history_[a], strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
+      dP[a] =
+          differential(law_, history_[a], strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
     });
   }
 

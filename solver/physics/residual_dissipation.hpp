@@ -115,8 +115,8 @@ struct ResidualDissipationWithJ : ResidualDissipation<D> {
 
   double kappa_J = 0;               ///< of the volume map
   std::vector<double> strength_J{}; ///< kappa_J c V^(1/D), m^2/s
-  /// J and the slope of the best linear fit to it, 1/m, in the last first sweep: between the sweeps a step may
-  /// advance the body's own.
+  /// J and the slope of the best linear fit to it, 1/m, in the last first sweep: between the sweeps a step
+  /// may advance the body's own.
   struct Seen {
     Vec<D> slope;
     double J;

@@ -38,14 +38,14 @@ std::unique_ptr<Step<Body>> make_step(const SceneSpec& scene, Conditions<Body::d
   return std::make_unique<Heun<Body>>(std::move(conditions), scene.momentum_projection);
 }
 
-/// Verlet's step is a share of the critical one. Heun's goes by (3.93) alone with the thesis' dissipation;
-/// that of others may ask for less where cells are small, so a share of the critical step bounds it too.
+/// Verlet's step is a share of the critical one. Heun's goes by (3.93); strong dissipation of close particles
+/// may ask for less, so a share of the critical step bounds it too.
 template <class Body>
 StepLimit<Body> make_limit(const SceneSpec& scene, double smallest) {
   constexpr double none = std::numeric_limits<double>::infinity(), enough = 0.8;
   if (chosen_integrator(scene) == "verlet")
     return {none, chosen_cfl(scene)};
-  return {chosen_cfl(scene) * smallest, chosen_dissipation(scene) == "jst" ? 0 : enough};
+  return {chosen_cfl(scene) * smallest, Body::dissipates ? enough : 0};
 }
 
 /// Calls use(assembly): a body is built where it stays.
@@ -69,12 +69,11 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
   for (std::size_t a = 0; a < X.size(); ++a)
     X[a] = cloud.X[a].head<D>();
   using ThisBody = Body<Formulation, Dissipation>;
-  Assembly<ThisBody> assembly{
-      ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material), std::move(graph),
-                std::move(gradient), std::move(dissipation),
-                Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
-      make_step<ThisBody>(scene, make_conditions<D>(scene, cloud, modulus, smallest)),
-      make_limit<ThisBody>(scene, smallest)};
+  Assembly<ThisBody> assembly{ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material),
+                                        std::move(graph), std::move(gradient), std::move(dissipation),
+                                        Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
+                              make_step<ThisBody>(scene, make_conditions<D>(scene, cloud, modulus, smallest)),
+                              make_limit<ThisBody>(scene, smallest)};
   set_initial(scene, cloud, assembly.body);
   return use(assembly);
 }

@@ -29,7 +29,10 @@ inline double chosen_kappa4_J(const SceneSpec& scene) {
 /// kappa of the residual dissipation, by the same rule.
 template <class Formulation>
 PlasticRamp chosen_residual(const SceneSpec& scene) {
-  return scene.residual.value_or(PlasticRamp::constant(Formulation::evolves_F ? usual_residual : 0.0));
+  if (!Formulation::evolves_F)
+    return scene.residual.value_or(PlasticRamp::constant(0));
+  return scene.residual.value_or(scene.material.plasticity ? usual_plastic_residual
+                                                           : PlasticRamp::constant(usual_residual));
 }
 
 inline double chosen_residual_J(const SceneSpec& scene) {

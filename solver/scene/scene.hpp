@@ -93,13 +93,14 @@ struct ExactSolution {
   std::optional<Formulas> displacement{}; ///< m
 };
 
-/// Found by measurement (docs/theory.md).
+/// Found by measurement (docs/theory.md). Metal that flows bears no shear waves that would want damping.
 constexpr double usual_residual = 1, usual_residual_J = 1;
+constexpr PlasticRamp usual_plastic_residual{0.5, 0.1, 0.5};
 
 struct SceneSpec {
   MaterialSpec material;
-  std::string formulation = "auto"; ///< auto, displacement, pF, pFJ, pFHJ
-  std::string scheme = "thesis";    ///< thesis, consistent
+  std::string formulation = "auto";  ///< auto, displacement, pF, pFJ, pFHJ
+  std::string scheme = "consistent"; ///< thesis, consistent
   /// auto, jst, jst_symmetric, linear_residual: auto is the scheme's own, jst of "thesis" and linear_residual
   /// of "consistent".
   std::string dissipation = "auto";
@@ -111,7 +112,8 @@ struct SceneSpec {
   std::optional<PlasticRamp> jst4{}; ///< kappa4 of (3.85), of both JST; absent: 1/8, none with displacements
   double jst2 = 0;                   ///< kappa2 of (3.84), of jst
   std::optional<double> jst4_J{};    ///< kappa4 of the volume map; absent: that of the momentum
-  /// kappa of the residual dissipation; absent: usual_residual, none with displacements.
+  /// kappa of the residual dissipation; absent: usual_residual, usual_plastic_residual where the material
+  /// flows, none with displacements.
   std::optional<PlasticRamp> residual{};
   std::optional<double> residual_J{}; ///< the same of the volume map; absent: usual_residual_J
   std::optional<double> involution{}; ///< xi: how hard J and H are held to det F and cof F; absent: 0.2; 4

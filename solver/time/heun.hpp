@@ -9,8 +9,8 @@
 
 namespace tessera::solver {
 
-/// U* = U^n + dt R(U^n),  U^(n+1) = (U^n + U* + dt R(U*)) / 2; the forces are projected about x^n in the first
-/// stage and about x^(n+1) = x^n + dt/(2 rho) (p^n + p*) in the second.
+/// U* = U^n + dt R(U^n),  U^(n+1) = (U^n + U* + dt R(U*)) / 2; the forces are projected about x^n in the
+/// first stage and about x^(n+1) = x^n + dt/(2 rho) (p^n + p*) in the second.
 template <class Body>
 class Heun final : public Step<Body> {
  public:
@@ -55,8 +55,7 @@ class Heun final : public Step<Body> {
   /// The first stage's momenta move a particle from the middle of x^n and x* to x^(n+1), in dt/2.
   void hold_middle(Body& body, double time, double dt) {
     if (!this->outside_.walls.empty())
-      for_each(body.size(),
-               [&](std::int64_t a) { place_[a] = 0.5 * (this->before_.x[a] + body.U.x[a]); });
+      for_each(body.size(), [&](std::int64_t a) { place_[a] = 0.5 * (this->before_.x[a] + body.U.x[a]); });
     this->limit(body, place_, time + 0.5 * dt, 0.5 * dt, 0.5);
     this->hold(body, time + dt, 0.5);
   }

@@ -56,9 +56,8 @@ class Step {
   Step(Conditions<D> conditions, bool momentum_projection)
       : outside_(std::move(conditions)), projects_(momentum_projection),
         works_(!outside_.walls.empty() || !outside_.loads.empty() || outside_.held.moving()),
-        pushed_(std::any_of(
-            outside_.walls.begin(), outside_.walls.end(),
-            [](const Wall<D>& wall) { return wall.law().method == ContactMethod::penalty; })),
+        pushed_(std::any_of(outside_.walls.begin(), outside_.walls.end(),
+                            [](const Wall<D>& wall) { return wall.law().method == ContactMethod::penalty; })),
         loaded_(pushed_ || !outside_.loads.empty()) {}
 
   /// What the method needs before its first step.

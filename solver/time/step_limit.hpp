@@ -26,26 +26,30 @@ class StepLimit {
   double operator()(Body& body) {
     const double by_distance =
         std::isfinite(length_) ? length_ / body.fastest_wave() : std::numeric_limits<double>::infinity();
-    return share_ == 0 ? by_distance : std::min(by_distance, share_ * follow(body));
+    return share_ == 0 ? by_distance : std::min(by_distance, share_ * follow(body, by_distance / share_));
   }
 
   double critical() const { return critical_.value(); } ///< as last found, s; zero without
 
  private:
-  /// Between one look at the operator and the next the particle that could vibrate fastest, the others held,
-  /// says how the critical step has shrunk.
-  double follow(Body& body) {
+  /// The critical step, where it may be less than `enough`. Between one look at the operator and the next the
+  /// particle that could vibrate fastest, the others held, says how it has shrunk.
+  double follow(Body& body, double enough) {
     if (stiffness_.empty())
       begin(body);
     const double pace = fastest_pace(body);
-    constexpr double hurry = 1.1;
+    constexpr double hurry = 1.1, far = 2;
+    if (critical_.value() * std::min(1.0, pace_ / pace) > far * enough)
+      return enough;
     if (++since_ >= interval_ || pace > hurry * pace_) {
       constexpr int sweeps = 3;
       constexpr std::int64_t shortest = 8, longest = 64;
       const double expected = critical_.value() * pace_ / pace;
       critical_.refine(body, sweeps);
       const double surprise = std::abs(critical_.value() / expected - 1);
-      interval_ = std::clamp(surprise < 0.01 ? 2 * interval_ : surprise > 0.03 ? interval_ / 2 : interval_,
+      interval_ = std::clamp(surprise < 0.01   ? 2 * interval_
+                             : surprise > 0.03 ? interval_ / 2
+                                               : interval_,
                              shortest, longest);
       pace_ = pace;
       since_ = 0;

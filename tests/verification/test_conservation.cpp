@@ -11,6 +11,7 @@ namespace {
 
 SceneSpec spinning_cube() {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
   scene.initial.push_back(
       {"all", Formulas{Expression("-105*(Y-0.5)"), Expression("105*(X-0.5)"), Expression("0")}});

@@ -75,6 +75,7 @@ TEST_P(Impact, OfAnElasticBarIsTheWaveGoingUpAndDown) {
     const double spacing = L / (layers - 1), width = 4 * spacing, mass = density * L * width;
     const auto cloud = test::box_lattice(5, layers, 1, Vec3(width, L, 0));
     SceneSpec scene;
+    scene.scheme = "thesis";
     scene.material = {"linear_elastic", density, young, 0, std::nullopt};
     scene.end_time = 3 * L / c;
     scene.history_rows = 300;
@@ -108,6 +109,7 @@ TEST_P(Impact, FrictionTakesItsShareOfTheNormalImpulseWhereverTheBodySlides) {
       std::make_shared<Polyline>(std::vector<Vec<2>>{{0, 0}, {1, 0}, {1, -1}}, std::vector<double>{0.1})};
   for (const auto& floor : floors) {
     SceneSpec scene;
+    scene.scheme = "thesis";
     scene.material = {"neo_hookean", 1000, 1e7, 0.3, std::nullopt};
     scene.end_time = 2e-3;
     scene.initial.push_back({"all", Formulas{number(10), number(-0.5), number(0)}});
@@ -126,6 +128,7 @@ TEST(Contact, ABodyInTheCavityOfAToolStaysThere) {
   for (Vec3& X : cloud.X)
     X -= Vec3::Constant(0.05); // corners at 0.0866
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1000, 1e6, 0.3, std::nullopt};
   scene.end_time = 0.02;
   scene.frames = 50;
@@ -142,6 +145,7 @@ TEST(Contact, ARubberBilletGoesThroughTwoTurnsWithoutPassingTheDie) {
       {{4 * mm, 56 * mm}, {4 * mm, -4 * mm}, {28 * mm, -4 * mm}, {28 * mm, -60 * mm}}, 8 * mm, 1.5 * mm, mm);
   const auto cloud = test::box_lattice(9, 25, 1, Vec3(8 * mm, 24 * mm, 0));
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1000, 1e6, 0.3, std::nullopt};
   scene.end_time = 6e-3;
   scene.frames = 60;

@@ -27,6 +27,7 @@ double balance_error(SceneSpec scene, const ParticleCloud& cloud, double cfl) {
 
 TEST(EnergyBalance, OfAnElasticBodyIsOfThirdOrderInTheStep) {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.jst4 = Kappa4::constant(0);
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0.5*Z"), Expression("3*Z")}});
@@ -42,6 +43,7 @@ TEST(EnergyBalance, OfAnElasticBodyIsOfThirdOrderInTheStep) {
 
 TEST(EnergyBalance, OfAPlasticImpactConvergesWithTheStep) {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.jst4 = Kappa4::constant(1.0 / 4096);
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0"), Expression("-227")}});

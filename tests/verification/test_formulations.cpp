@@ -2,6 +2,7 @@
 #include "solver/physics/materials/elastic_constants.hpp"
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
+#include "tests/support/swinging_cube.hpp"
 
 #include "core/error.hpp"
 
@@ -17,31 +18,6 @@ namespace {
 
 using Kind = BoundaryCondition::Kind;
 
-/// A cube that swings in its first mode of pressure waves, (5.1), at a quarter of its period.
-SceneSpec swinging_cube() {
-  SceneSpec scene;
-  scene.material = {"linear_elastic", 1100, 17e6, 0.3, std::nullopt};
-  const ElasticConstants elastic = ElasticConstants::from(17e6, 0.3);
-  const double omega = std::sqrt(3.0) / 2 * M_PI * std::sqrt(elastic.pressure_wave_modulus() / 1100);
-  const auto mode = [](const std::string& factor) {
-    const std::string x = "(_pi*X/2)", y = "(_pi*Y/2)", z = "(_pi*Z/2)";
-    return Formulas{Expression(factor + "*sin" + x + "*cos" + y + "*cos" + z),
-                    Expression(factor + "*cos" + x + "*sin" + y + "*cos" + z),
-                    Expression(factor + "*cos" + x + "*cos" + y + "*sin" + z)};
-  };
-  const std::string w = std::to_string(omega);
-  scene.initial.push_back({"all", {}, mode("5e-4")});
-  scene.exact = ExactSolution{mode("-5e-4*" + w + "*sin(" + w + "*t)"),
-                              Expression(std::to_string(5e-4 * 1.5 * M_PI * elastic.kappa) + "*cos(" + w +
-                                         "*t)*cos(_pi*X/2)*cos(_pi*Y/2)*cos(_pi*Z/2)")};
-  for (const char* axis : {"x", "y", "z"}) {
-    scene.boundary.push_back({Kind::sliding, std::string(axis) + "_min"});
-    scene.boundary.push_back({Kind::skew_symmetric, std::string(axis) + "_max"});
-  }
-  scene.end_time = 0.004;
-  return scene;
-}
-
 ErrorNorms errors(const SceneSpec& scene, int n) {
   return *run(scene, test::box_lattice(n, n, n, Vec3(1, 1, 1)), {}, Progress::silent()).error;
 }
@@ -50,14 +26,14 @@ ErrorNorms errors(const SceneSpec& scene, int n) {
 
 TEST(SwingingCube, TheSchemeIsOfFirstOrderOnLattices) {
   // An independent program gave 13.5 and 7.8 per cent.
-  const double coarse = errors(swinging_cube(), 9).l2_velocity_relative,
-               fine = errors(swinging_cube(), 17).l2_velocity_relative;
+  const double coarse = errors(test::swinging_cube("thesis"), 9).l2_velocity_relative,
+               fine = errors(test::swinging_cube("thesis"), 17).l2_velocity_relative;
   EXPECT_NEAR(coarse, 0.136, 0.002);
   EXPECT_NEAR(fine, 0.0803, 0.002);
 }
 
 TEST(SwingingCube, TheFormulationsAgreeWhereStrainsAreSmall) {
-  SceneSpec scene = swinging_cube();
+  SceneSpec scene = test::swinging_cube("thesis");
   scene.formulation = "pF";
   const ErrorNorms pF = errors(scene, 9);
   for (const char* formulation : {"pFJ", "pFHJ"}) {
@@ -70,6 +46,7 @@ TEST(SwingingCube, TheFormulationsAgreeWhereStrainsAreSmall) {
 
 TEST(Displacement, IsTheFibreMapsFormulationWithoutDissipation) {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("8*Z"), Expression("0")}});
   scene.boundary.push_back({Kind::fixed, "base"});
@@ -91,6 +68,7 @@ TEST(Displacement, IsTheFibreMapsFormulationWithoutDissipation) {
 TEST(Involution, KeepsAVolumeMapThatItsDissipationWouldDriveAway) {
   // A column twisted by more than a full turn.
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
   scene.formulation = "pFJ";
   scene.initial.push_back({"all", Formulas{Expression("-105*sin(_pi*Z/12)*(Y-0.5)"),
@@ -108,6 +86,7 @@ TEST(Involution, KeepsAVolumeMapThatItsDissipationWouldDriveAway) {
 
 TEST(Loads, AFreeBodyFallsWithoutStrain) {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
   scene.boundary.push_back(
       {Kind::body_force, "all", {true, true, true}, {Expression("0"), Expression("0"), Expression("-9.81")}});
@@ -125,6 +104,7 @@ TEST(Loads, ASuddenTractionStretchesABarTwiceAsFarAsASlowOne) {
   // A bar without Poisson's ratio: the tip goes to 2 t L / E and back in 4 L / c.
   const double L = 1, young = 1e7, density = 1000, traction = 1e4, c = std::sqrt(young / density);
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"linear_elastic", density, young, 0, std::nullopt};
   scene.boundary.push_back({Kind::fixed, "base"});
   scene.boundary.push_back({Kind::traction,

@@ -7,6 +7,7 @@
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/domains.hpp"
+#include "tests/support/swinging_cube.hpp"
 #include "tests/support/tessellation.hpp"
 
 #include <fmt/format.h>
@@ -21,33 +22,9 @@ using namespace tessera::solver;
 
 namespace {
 
-SceneSpec swinging_cube(const std::string& scheme) {
-  SceneSpec scene;
-  scene.scheme = scheme;
-  scene.material = {"linear_elastic", 1100, 17e6, 0.3, std::nullopt};
-  scene.end_time = 0.004;
-  // u = 5e-4 cos(w t) m with the mode m, w = sqrt(3)/2 pi c and c = 144.235 m/s the pressure wave speed.
-  const std::string mode[3] = {"sin(_pi*X/2)*cos(_pi*Y/2)*cos(_pi*Z/2)",
-                               "cos(_pi*X/2)*sin(_pi*Y/2)*cos(_pi*Z/2)",
-                               "cos(_pi*X/2)*cos(_pi*Y/2)*sin(_pi*Z/2)"};
-  const auto times = [&](const std::string& factor) {
-    const auto one = [&](int c) { return Expression(fmt::format("{}*{}", factor, mode[c])); };
-    return Formulas{one(0), one(1), one(2)};
-  };
-  scene.initial.push_back({"all", std::nullopt, times("5e-4")});
-  scene.exact = ExactSolution{times("-5e-4*392.42437086993*sin(392.42437086993*t)"),
-                              Expression("5e-4*14166666.6666667*1.5*_pi*cos(392.42437086993*t)*cos(_pi*X/2)*"
-                                         "cos(_pi*Y/2)*cos(_pi*Z/2)")};
-  for (const std::string axis : {"x", "y", "z"}) {
-    scene.boundary.push_back({BoundaryCondition::Kind::sliding, fmt::format("{}_min", axis)});
-    scene.boundary.push_back({BoundaryCondition::Kind::skew_symmetric, fmt::format("{}_max", axis)});
-  }
-  return scene;
-}
-
 double velocity_error(const ParticleCloud& cloud, const std::string& scheme,
                       const std::string& dissipation = "auto") {
-  SceneSpec scene = swinging_cube(scheme);
+  SceneSpec scene = test::swinging_cube(scheme);
   scene.dissipation = dissipation;
   return run(scene, cloud, {}, Progress::silent()).error->l2_velocity_relative;
 }

@@ -118,7 +118,7 @@ TYPED_TEST(Residual, IsAntisymmetricInPairs) {
   const auto& graph = body.neighbours;
   const auto given_to = [&](std::int64_t a, std::int64_t e) { // D_a V_a from the neighbour of edge e alone
     const Vec<D> R = dissipation.X[graph.column[e]] - dissipation.X[a];
-    Vec<D> sum = -(dissipation.slope[a] * (dissipation.weight[e] * R));
+    Vec<D> sum = -dissipation.strength[a] * (dissipation.slope[a] * (dissipation.weight[e] * R));
     dissipation.add_second(sum, body, a, e, graph.column[e]);
     return Vec<D>(body.V[a] * 0.5 * sum);
   };

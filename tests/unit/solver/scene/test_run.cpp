@@ -16,6 +16,7 @@ namespace {
 /// A short copper bar thrown at a wall.
 SceneSpec impact() {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.jst4 = Kappa4::constant(1.0 / 4096);
   scene.end_time = 3e-6;
@@ -145,6 +146,7 @@ TEST(Run, ABodyBehindItsWallIsRefused) {
 TEST(Run, ElasticScenesRunInThePlaneAndWithoutDissipation) {
   const auto cloud = test::box_lattice(9, 9, 1, Vec3(1, 1, 0));
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
   scene.end_time = 0.02;
   scene.boundary = {{BoundaryCondition::Kind::fixed, "base"}};
@@ -164,6 +166,7 @@ TEST(Run, EveryDissipationStandsWithEitherSchemeDownToSixNeighbours) {
   // Support 1.2: six neighbours inside, three at a corner, where there is no Laplacian.
   const auto cloud = test::box_lattice(5, 5, 5, Vec3(1, 1, 1));
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
   scene.end_time = 0.005;
   scene.boundary = {{BoundaryCondition::Kind::fixed, "base"}};

@@ -12,6 +12,7 @@ namespace {
 
 SceneSpec good() {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.end_time = 1e-5;
   scene.walls.push_back({});
