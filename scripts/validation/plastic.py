@@ -177,7 +177,8 @@ def taylor_bar_unstructured(bench):
         for subvolumes in ("voronoi", "uniform"):
             for seed in (1, 2, 3):
                 run = bench.run(case, f"{count}_{subvolumes}_{seed}", rows=400, particles__count=count,
-                                particles__seed=seed, particles__subvolumes=f'"{subvolumes}"')
+                                particles__seed=seed, particles__subvolumes=f'"{subvolumes}"', particles__relax=0,
+                                solver__scheme='"thesis"')
                 if not run.good:
                     table.row(count, subvolumes, seed, run.error)
                     continue
@@ -200,7 +201,7 @@ def tensile_cube_unstructured(bench):
         for subvolumes in ("voronoi", "uniform"):
             runs[f"two-pass, {subvolumes}, seed {seed}"] = bench.run(
                 "tensile_cube/voronoi.toml", f"{subvolumes}_{seed}", rows=500, probes=probes, particles__seed=seed,
-                particles__subvolumes=f'"{subvolumes}"')
+                particles__subvolumes=f'"{subvolumes}"', solver__scheme='"thesis"')
     table = bench.grid("tensile_unstructured", "cloud", "particles", "corner's highest u_z, m", "at, ms", "u_z at 50 ms, m",
                        "largest |u_x|, m", "u_x at 50 ms, m")
     for name, run in runs.items():

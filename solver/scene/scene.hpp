@@ -204,8 +204,14 @@ std::string chosen_formulation(const SceneSpec& scene);
 /// The dissipation a scene is run with: "auto" means its scheme's own.
 std::string chosen_dissipation(const SceneSpec& scene);
 
+/// The method of time integration: "auto" means its scheme's own.
 std::string chosen_integrator(const SceneSpec& scene);
+/// Of the method: see SceneSpec::cfl.
 double chosen_cfl(const SceneSpec& scene);
+
+/// Keys of constants that are given but belong to a dissipation that is not chosen: a case may hold those of
+/// several.
+std::vector<std::string> resting_constants(const SceneSpec& scene);
 
 /// Checks that needs no cloud: ranges and names. `where(key)` turns a key such as "material.poisson" into
 /// file:line:column for the message. InputError.

@@ -64,28 +64,10 @@ void validate_constants(const MaterialSpec& m, const Where& where) {
   }
 }
 
-/// Each dissipation has constants of its own.
 void validate_dissipation(const SceneSpec& scene,
                           const std::function<std::string(const std::string&)>& where) {
   one_of(scene.dissipation, {"auto", "jst", "jst_symmetric", "linear_residual"}, "solver.dissipation",
          where("solver.dissipation"));
-  const std::string chosen = chosen_dissipation(scene);
-  const auto belongs_to = [&](const std::vector<std::string>& owners, const std::string& key, bool given,
-                              const std::string& instead) {
-    require(!given || std::find(owners.begin(), owners.end(), chosen) != owners.end(),
-            fmt::format("solver.{} is given, but the dissipation is \"{}\"", key, chosen),
-            where(fmt::format("solver.{}", key)),
-            fmt::format("{}; or choose solver.dissipation = \"{}\"", instead, fmt::join(owners, "\" or \"")));
-  };
-  const bool residual = chosen == "linear_residual";
-  const auto its_own = [&](const std::string& key) { return fmt::format("its constant is solver.{}", key); };
-  const std::vector<std::string> jst = {"jst", "jst_symmetric"};
-  belongs_to(jst, "jst4", scene.jst4.has_value(), its_own("residual"));
-  belongs_to(jst, "jst4_J", scene.jst4_J.has_value(), its_own("residual_J"));
-  belongs_to({"jst"}, "jst2", scene.jst2 != 0, residual ? its_own("residual") : "it has no shock term");
-  belongs_to({"linear_residual"}, "residual", scene.residual.has_value(), its_own("jst4"));
-  belongs_to({"linear_residual"}, "residual_J", scene.residual_J.has_value(), its_own("jst4_J"));
-
   const auto ramp = [&](const std::string& key, const std::optional<PlasticRamp>& value, double most) {
     if (!value)
       return;
@@ -99,6 +81,22 @@ void validate_dissipation(const SceneSpec& scene,
 }
 
 } // namespace
+
+std::vector<std::string> resting_constants(const SceneSpec& scene) {
+  const std::string chosen = chosen_dissipation(scene);
+  const bool of_jst = chosen != "linear_residual", shocks = chosen == "jst";
+  std::vector<std::string> resting;
+  const auto note = [&](const char* key, bool given, bool used) {
+    if (given && !used)
+      resting.push_back(key);
+  };
+  note("jst4", scene.jst4.has_value(), of_jst);
+  note("jst4_J", scene.jst4_J.has_value(), of_jst);
+  note("jst2", scene.jst2 != 0, shocks);
+  note("residual", scene.residual.has_value(), !of_jst);
+  note("residual_J", scene.residual_J.has_value(), !of_jst);
+  return resting;
+}
 
 void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where) {
   const auto number = [&](const std::string& key, double value, bool good, const std::string& range) {
