@@ -48,9 +48,9 @@ void require_cad_file(const Case& the_case) {
 solver::SceneSpec scene_with_surfaces(const Case& the_case, Console& console) {
   solver::SceneSpec scene = the_case.scene;
   if (const auto resting = solver::resting_constants(scene); !resting.empty())
-    console.progress().note(fmt::format("solver.{} of the case {} no part: the dissipation is \"{}\"",
-                                        fmt::join(resting, ", solver."), resting.size() > 1 ? "play" : "plays",
-                                        solver::chosen_dissipation(scene)));
+    console.progress().note(fmt::format(
+        "solver.{} of the case {} no part: the dissipation is \"{}\"", fmt::join(resting, ", solver."),
+        resting.size() > 1 ? "play" : "plays", solver::chosen_dissipation(scene)));
   for (const WallSurface& surface : the_case.wall_surfaces) {
     const preprocess::Domain domain = preprocess::import_geometry(surface.source, console.progress());
     stop_if_interrupted("import");

@@ -24,7 +24,7 @@ TEST(Run, SameBytesOnOneThreadAndTwo) {
   const std::vector<std::string> voronoi = {
       "--set", "particles.arrangement=voronoi",
       "--set", "particles.count=600",
-      "--set", "solver.end_time=2e-7",
+      "--set", "solver.end_time=1e-6",
       "--set", "geometry.file=" TESSERA_SOURCE_DIR "/geometries/taylor_bar/taylor_bar.step"};
   for (const char* threads : {"1", "2"}) {
     std::vector<std::string> arguments = {"run", "case.toml", "--quiet", "--threads", threads, "-o", threads};

@@ -30,12 +30,10 @@ struct Bar {
     ADD_FAILURE() << "no probe " << name;
     return 0;
   }
-  /// Largest over smallest radius of the foot in sixteen directions.
+  /// Largest over smallest radius of the bar, which is widest at its foot, in sixteen directions.
   double unroundness() const {
     std::array<double, 16> radius{};
     for (std::size_t a = 0; a < cloud.X.size(); ++a) {
-      if (cloud.X[a][2] > 1e-9)
-        continue;
       const double x = cloud.X[a][0] + displacement[3 * a], y = cloud.X[a][1] + displacement[3 * a + 1];
       double& outermost = radius[static_cast<std::size_t>((std::atan2(y, x) / M_PI + 1) * 8) % 16];
       outermost = std::max(outermost, std::hypot(x, y));
@@ -73,9 +71,9 @@ Bar run_case(const std::string& file) {
   return bar;
 }
 
-constexpr double thesis_radius = 6.98e-3;   // m
-constexpr double particle_radius = 0.32e-3; // m, of the lattice's particles
-constexpr double converged_radius = 7.23e-3, converged_length = 21.43e-3; // m
+constexpr double thesis_radius = 6.98e-3;                                 // m
+constexpr double particle_radius = 0.32e-3;                               // m, of the lattice's particles
+constexpr double converged_radius = 7.23e-3, converged_length = 21.43e-3; // m, of a bar of 32.4 mm
 
 } // namespace
 
@@ -93,15 +91,15 @@ TEST(TaylorBar, OnTheLatticeOfTheThesis) {
 
 TEST(TaylorBar, OnATwoPassVoronoiCloud) {
   const Bar bar = run_case("voronoi.toml");
-  EXPECT_NEAR(static_cast<double>(bar.cloud.size()) / 2000, 1, 0.02);
+  EXPECT_NEAR(static_cast<double>(bar.cloud.size()) / 4000, 1, 0.02);
   EXPECT_LT(bar.quality.volume_error, 1e-12);
   EXPECT_GE(bar.quality.spacing_min_over_h, 0.39);
   EXPECT_EQ(bar.summary.time, 80e-6);
   // Against the converged bar of docs/data/taylor_reference.csv.
-  EXPECT_NEAR(bar.probe("radius_m") / converged_radius, 1, 0.05);
-  EXPECT_NEAR(bar.probe("length_m") / converged_length, 1, 0.01);
+  EXPECT_NEAR(bar.probe("radius_m") / converged_radius, 1, 0.03);
+  EXPECT_NEAR(bar.probe("length_m") / (converged_length * 32 / 32.4), 1, 0.02);
   EXPECT_LT(bar.height_of_largest_strain(), 1e-3);
   EXPECT_LT(bar.summary.extremes.equivalent_plastic_strain, 4);
   EXPECT_LT(bar.summary.energy.balance_error, 0.005);
-  EXPECT_LT(bar.unroundness(), 1.06);
+  EXPECT_LT(bar.unroundness(), 1.03);
 }

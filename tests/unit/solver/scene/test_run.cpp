@@ -169,6 +169,7 @@ TEST(Run, EveryDissipationStandsWithEitherSchemeDownToSixNeighbours) {
   scene.scheme = "thesis";
   scene.material = {"neo_hookean", 1100, 17e6, 0.45, std::nullopt};
   scene.end_time = 0.005;
+  scene.cfl = 0.3;
   scene.boundary = {{BoundaryCondition::Kind::fixed, "base"}};
   scene.initial.push_back(
       {"all", Formulas{Expression("-20*Z*(Y-0.5)"), Expression("20*Z*(X-0.5)"), Expression("0")}});
