@@ -1,5 +1,6 @@
 """The studies of docs/accuracy.md: both schemes on lattices, jittered lattices and irregular clouds, in space and in the plane."""
 
+import collections
 import json
 import math
 import subprocess
@@ -19,6 +20,10 @@ class Cloud:
         self.words, self.sizes, self.seeds, self.schemes = words, sizes, seeds, schemes
         self.solver = solver or {}
         self.particles = particles
+
+    def spacing(self, size, particles, dimension):
+        """m: between a lattice's points, elsewhere (volume / particles)^(1/d)."""
+        return 1 / (size - 1) if self.particles["arrangement"] == "lattice" else particles ** (-1 / dimension)
 
     def keys(self, size, seed, dimension):
         count = size**dimension if self.particles["arrangement"] == "lattice" else size
@@ -43,6 +48,7 @@ IN_THE_PLANE = (
     Cloud("two-pass", (250, 1000, 4000, 16000), SEEDS, arrangement="voronoi"),
     Cloud("two-pass, relaxed", (250, 1000, 4000, 16000), **RELAXED),
     Cloud("Poisson, relaxed", (250, 1000, 4000, 16000), arrangement="poisson", relax=20))
+Refinement = collections.namedtuple("Refinement", "particles spacing errors")
 FIELDS = {"velocity": "v", "displacement": "u", "pressure": "p", "stress": "stress"}
 
 
@@ -51,22 +57,29 @@ def mean(values):
 
 
 def measure(bench, case, wave, quarter, cloud, scheme, size):
-    """Particles and errors, geometric means over the seeds: velocity at a quarter of the period, the rest at an eighth."""
+    """A refinement, its errors geometric means over the seeds: velocity at a quarter of the period, the rest at an eighth."""
     particles, found = [], []
     for seed in cloud.seeds:
-        name = f"{case[:-5]}-{cloud.words}-{scheme}-{size}-{seed}".replace(" ", "-").replace(",", "").replace("/", "-")
+        name = "-".join([case[:-5], cloud.words, scheme, str(size), str(seed), *[f"{k}={v}" for k, v in cloud.solver.items()]])
+        name = name.replace(" ", "-").replace(",", "")
+        keys = cloud.keys(size, seed, wave.dimension)
+        particles_asked = (case, *[(key, value) for key, value in keys.items() if key.startswith("particles")])
         run = bench.run(f"swinging_cube/{case}", name, end_time=quarter, frames=2, rows=2, solver__scheme=scheme,
-                        **cloud.keys(size, seed, wave.dimension))
-        bench.require(run.good, f"{name} comes to its end")
+                        cloud=bench.clouds.get(particles_asked), **keys)
+        if not run.good:
+            raise SystemExit(f"{name}: {run.error}")
+        bench.clouds.setdefault(particles_asked, run.folder / "cloud.vtp")
         half, end = errors(run, wave, quarter / 2), errors(run, wave, quarter)
         found.append({**half, "velocity": end["velocity"]})
         particles.append(run["particles"])
         bench.costs[case, cloud.words, scheme, size] = run
-    return mean(particles), {field: mean([one[field] for one in found]) for field in FIELDS}
+    particles = mean(particles)
+    return Refinement(particles, cloud.spacing(size, particles, wave.dimension),
+                      {field: mean([one[field] for one in found]) for field in FIELDS})
 
 
-def order(coarse, fine, field, dimension):
-    return dimension * math.log(coarse[1][field] / fine[1][field]) / math.log(fine[0] / coarse[0])
+def order(coarse, fine, field):
+    return math.log(coarse.errors[field] / fine.errors[field]) / math.log(coarse.spacing / fine.spacing)
 
 
 def study(bench, name, case, dimension, quarter, clouds):
@@ -80,18 +93,18 @@ def study(bench, name, case, dimension, quarter, clouds):
             for size in cloud.sizes[:2] if bench.short else cloud.sizes:
                 line.append(measure(bench, case, Wave(dimension), quarter, cloud, scheme, size))
                 cells = [cell for field in FIELDS
-                         for cell in (percent(line[-1][1][field]),
-                                      f"{order(*line[-2:], field, dimension):.2f}" if len(line) > 1 else "")]
-                table.row(cloud.words, scheme, round(line[-1][0]), *cells)
-            orders.row(cloud.words, scheme, *[f"{order(line[0], line[-1], field, dimension):.2f}" for field in FIELDS])
+                         for cell in (percent(line[-1].errors[field]),
+                                      f"{order(*line[-2:], field):.2f}" if len(line) > 1 else "")]
+                table.row(cloud.words, scheme, round(line[-1].particles), *cells)
+            orders.row(cloud.words, scheme, *[f"{order(line[0], line[-1], field):.2f}" for field in FIELDS])
             results[cloud.words, scheme] = line
     return results
 
 
 def cube(bench):
     results = study(bench, "cube", "voronoi.toml", 3, 0.004, IN_SPACE)
-    at = lambda words, k, field="velocity": results[words, "consistent"][k][1][field]
-    overall = lambda words, field: order(results[words, "consistent"][0], results[words, "consistent"][-1], field, 3)
+    at = lambda words, k, field="velocity": results[words, "consistent"][k].errors[field]
+    overall = lambda words, field: order(results[words, "consistent"][0], results[words, "consistent"][-1], field)
     for words, velocity, pressure in (("lattice", 1.9, 1), ("two-pass", 1.5, 1), ("two-pass, relaxed", 1.7, 1)):
         bench.require_above(f"order of velocity, {words}", overall(words, "velocity"), velocity)
         bench.require_above(f"order of pressure, {words}", overall(words, "pressure"), pressure)
@@ -101,15 +114,15 @@ def cube(bench):
         bench.require_below("velocity, lattice of 25", at("lattice", 2), 0.002)
         bench.require_below("velocity, jittered of 25, κ = 2", at("jittered lattice, κ = 2", 2), 0.003)
         time_to_one_percent(bench, results)
-    draw(bench, "accuracy_cube", results, 3)
+    draw(bench, "accuracy_cube", results)
 
 
 def square(bench):
     results = study(bench, "square", "square.toml", 2, 0.0049, IN_THE_PLANE)
     for words in ("lattice", "two-pass, relaxed"):
         line = results[words, "consistent"]
-        bench.require_above(f"order of velocity in the plane, {words}", order(line[0], line[-1], "velocity", 2), 1.7)
-    draw(bench, "accuracy_square", results, 2)
+        bench.require_above(f"order of velocity in the plane, {words}", order(line[0], line[-1], "velocity"), 1.7)
+    draw(bench, "accuracy_square", results)
 
 
 def time_to_one_percent(bench, results):
@@ -121,13 +134,13 @@ def time_to_one_percent(bench, results):
             continue
         for scheme in cloud.schemes:
             line = results[cloud.words, scheme]
-            pair = min(zip(line, line[1:]), key=lambda two: abs(math.log(two[0][1]["velocity"] * two[1][1]["velocity"] / 1e-4)))
-            rate = order(*pair, "velocity", 3)
+            pair = min(zip(line, line[1:]), key=lambda two: abs(math.log(two[0].errors["velocity"] * two[1].errors["velocity"] / 1e-4)))
+            rate = order(*pair, "velocity")
             run = bench.costs["voronoi.toml", cloud.words, scheme, cloud.sizes[-1]]
             if rate < 0.3:
                 table.row(cloud.words, scheme, "never")
                 continue
-            particles = pair[1][0] * (pair[1][1]["velocity"] / 0.01) ** (3 / rate)
+            particles = pair[1].particles * (pair[1].errors["velocity"] / 0.01) ** (3 / rate)
             steps = max(1, round(run["steps"] * (particles / run["particles"]) ** (1 / 3)))
             cost = run["us_per_particle_step"]
             seconds[cloud.words, scheme] = particles * steps * cost * 1e-6
@@ -137,24 +150,23 @@ def time_to_one_percent(bench, results):
     bench.require_above("time to 1 % on lattices, thesis over consistent", ratio, 1000)
 
 
-def draw(bench, name, results, dimension):
+def draw(bench, name, results):
     """docs/NAME.png by the program's own charts: spacing against error, both schemes, with slopes 1 and 2."""
     if not bench.pictures:
         return
-    length = lambda particles: particles ** (-1 / dimension)
     charts = []
     for field, words in (("velocity", "velocity, a quarter of the period"), ("pressure", "pressure, an eighth")):
         curves = []
         for (cloud, scheme), line in results.items():
             if "κ" in cloud or "neighbours" in cloud or "seeds" in cloud:
                 continue
-            curves.append(dict(label=f"{cloud}, {scheme}", x=[length(n) for n, _ in line], y=[100 * e[field] for _, e in line],
+            curves.append(dict(label=f"{cloud}, {scheme}", x=[one.spacing for one in line], y=[100 * one.errors[field] for one in line],
                                dots=False, dashed=scheme == "thesis", bars=False))
         x = [min(c for curve in curves for c in curve["x"]), max(c for curve in curves for c in curve["x"])]
         for slope, start in ((1, 30), (2, 0.6 if field == "velocity" else 1)):
             curves.append(dict(label=f"slope {slope}", x=x, y=[start * (c / x[0 if slope == 2 else 1]) ** slope for c in x],
                                dots=False, dashed=True, bars=False))
-        charts.append(dict(title=f"Relative L2 error of the {words}", x_title="spacing (volume / particles)^(1/d), m", y_title="error, %",
+        charts.append(dict(title=f"Relative L2 error of the {words}", x_title="spacing, m", y_title="error, %",
                            log_x=True, log_y=True, curves=curves))
     job = dict(drawings=[], plots=[dict(file=str(ROOT / f"docs/{name}.png"), charts=charts, beside=False)])
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
@@ -166,4 +178,29 @@ def draw(bench, name, results, dimension):
     bench.require("file:" in said, f"docs/{name}.png is drawn")
 
 
-STUDIES = {"cube": cube, "square": square}
+def choices(bench):
+    """What neighbours, strength and kind of dissipation, and the length of the step do to the velocity's error."""
+    at = lambda cloud, size, **solver: measure(bench, case, wave, quarter, Cloud(cloud.words, (size,), cloud.seeds, **cloud.particles,
+                                                                                 solver=solver), "consistent", size)
+    for case, wave, quarter, clouds, counts in (("voronoi.toml", Wave(3), 0.004, IN_SPACE, (18, 24, 30)),
+                                                ("square.toml", Wave(2), 0.0049, IN_THE_PLANE, (10, 12, 14, 18))):
+        table = bench.grid(f"neighbours.{wave.dimension}", "cloud", "κ", *[f"{n} neighbours" for n in counts])
+        for cloud in clouds:
+            if cloud.words in ("jittered lattice", "two-pass", "two-pass, relaxed", "Poisson, relaxed"):
+                for kappa in (1, 2):
+                    row = [at(cloud, cloud.sizes[1], neighbours=n, residual=kappa) for n in counts]
+                    table.row(cloud.words, kappa, *[f"{percent(one.errors['velocity'])}, {percent(one.errors['pressure'])}" for one in row])
+    case, wave, quarter = "voronoi.toml", Wave(3), 0.004
+    lattice, jittered, _, two_pass, _, relaxed, *_ = IN_SPACE
+    table = bench.grid("dissipations", "cloud", "linear residual, κ = 1", "symmetric JST, κ4 = 1/8", "JST, κ4 = 1/8")
+    for cloud in (lattice, jittered, two_pass, relaxed):
+        row = [[at(cloud, size, dissipation=kind).errors["velocity"] for size in cloud.sizes[:2]]
+               for kind in ("linear_residual", "jst_symmetric", "jst")]
+        table.row(cloud.words + ", {}; {}".format(*cloud.sizes[:2]), *["; ".join(map(percent, errors)) for errors in row])
+    table = bench.grid("step", "cloud", *[f"cfl = {cfl}" for cfl in (0.3, 0.5, 0.8)])
+    for cloud in (lattice, jittered, two_pass, relaxed):
+        table.row(f"{cloud.words}, {cloud.sizes[1]}",
+                  *[percent(at(cloud, cloud.sizes[1], cfl=cfl).errors["velocity"]) for cfl in (0.3, 0.5, 0.8)])
+
+
+STUDIES = {"cube": cube, "square": square, "choices": choices}
