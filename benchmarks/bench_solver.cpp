@@ -3,6 +3,7 @@
 #include "solver/boundary/plane.hpp"
 #include "solver/boundary/polyline.hpp"
 #include "solver/boundary/wall.hpp"
+#include "solver/operators/consistent.hpp"
 #include "solver/operators/gradient.hpp"
 #include "solver/operators/laplacian.hpp"
 #include "solver/operators/support.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 SceneSpec copper_bar() {
   SceneSpec scene;
+  scene.scheme = "thesis";
   scene.material = {"hencky", 8930, 117e9, 0.35, LinearHardening{0.4e9, 0.1e9}};
   scene.jst4 = Kappa4::constant(1.0 / 4096);
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0"), Expression("-227")}});
@@ -46,6 +48,53 @@ void operator_build(benchmark::State& state) {
   state.counters["ns/particle"] =
       benchmark::Counter(static_cast<double>(cloud.size()) * 1e-9,
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// What the consistent scheme adds to the setting up: range(0)^3 particles on a lattice (support 1.6) or,
+/// with range(1), on one whose inner particles are moved by up to 0.3 spacings (30 neighbours each).
+void correction(benchmark::State& state) {
+  const auto n = static_cast<int>(state.range(0));
+  set_threads(1);
+  auto cloud = test::box_lattice(n, n, n, Vec3(1, 1, 1));
+  if (state.range(1) > 0)
+    cloud = test::jittered(std::move(cloud), 0.3, 1);
+  const Neighbours graph = state.range(1) > 0 ? adaptive_support<3>(cloud.X, cloud.V, 30)
+                                              : uniform_support(cloud.X, 1.6 * cloud.spacing);
+  const Gradient<3> plain = build_gradient<3>(cloud.X, cloud.V, graph);
+  for (auto _ : state) {
+    Gradient<3> gradient = plain;
+    state.counters["iterations"] =
+        static_cast<double>(balance_constant_stress<3>(gradient, cloud.X, cloud.V, cloud.A, graph));
+  }
+  state.counters["ns/particle"] =
+      benchmark::Counter(static_cast<double>(cloud.size()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// Steps of an elastic cube of range(0)^3 particles by scheme and method, at the scheme's own support or,
+/// where range(1) > 0, at range(1) / 10 spacings.
+void scheme_step(benchmark::State& state, const std::string& scheme, const std::string& integrator) {
+  const auto n = static_cast<int>(state.range(0));
+  set_threads(1);
+  const auto cloud = test::box_lattice(n, n, n, Vec3(1, 1, 1));
+  SceneSpec scene = rubber_bar();
+  scene.scheme = scheme;
+  scene.integrator = integrator;
+  if (scheme == "consistent")
+    scene.jst4.reset();
+  if (state.range(1) > 0)
+    scene.support = static_cast<double>(state.range(1)) / 10;
+  scene.initial = {{"all", Formulas{Expression("X*Y"), Expression("Y*Z"), Expression("Z*X")}, std::nullopt}};
+  scene.end_time = 20 * forecast(scene, cloud).dt;
+  double ns = 0, neighbours = 0;
+  for (auto _ : state) {
+    const Summary summary = run(scene, cloud, {}, Progress::silent());
+    state.SetIterationTime(summary.wall_seconds);
+    ns += 1e3 * summary.us_per_particle_step;
+    neighbours = summary.neighbours_mean;
+  }
+  state.counters["ns/particle/step"] = ns / static_cast<double>(state.iterations());
+  state.counters["neighbours"] = neighbours;
 }
 
 /// Whole steps (two stages) of a cylinder of `layers` layers of 81 particles, from run()'s own clock.
@@ -106,3 +155,16 @@ BENCHMARK(contact_with_plane)->Arg(12)->Arg(120);
 BENCHMARK(contact_with_channel)->Arg(12)->Arg(120);
 BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
+BENCHMARK(correction)->ArgsProduct({{46}, {0, 1}})->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scheme_step, thesis_heun, "thesis", "heun")
+    ->ArgsProduct({{46}, {0, 22}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(scheme_step, consistent_heun, "consistent", "heun")
+    ->ArgsProduct({{46}, {0, 22}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(scheme_step, consistent_verlet, "consistent", "verlet")
+    ->ArgsProduct({{46}, {0, 22}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();

@@ -16,6 +16,8 @@ using preprocess::ShapeKind;
 constexpr Range memory_size{[](double x) { return x > 0 && x <= 1e6; },
                             "greater than 0 and at most 1e6 (GiB)"};
 
+constexpr Range jitter_range{[](double x) { return x >= 0 && x <= 0.45; }, "from 0 to 0.45 (spacings)"};
+
 /// geometry.shape and the lengths that go with it.
 preprocess::ShapeSpec read_shape(Table& geometry, int dimension) {
   std::vector<std::string> names;
@@ -118,6 +120,7 @@ preprocess::ParticleRequest read_particles(Table particles, int dimension) {
                                              : LatticeKind::hexagonal;
   request.sight = particles.number_or("sight", request.sight, positive);
   request.seed = static_cast<std::uint64_t>(particles.integer_or("seed", 1, 0, std::int64_t{1} << 53));
+  request.jitter = particles.number_or("jitter", request.jitter, jitter_range);
   request.merge = particles.number_or("merge", request.merge, zero_to_one);
   request.relax = static_cast<int>(particles.integer_or("relax", 0, 0, 10'000));
   request.relax_seeds = static_cast<int>(particles.integer_or("relax_seeds", 0, 0, 10'000));
@@ -136,6 +139,7 @@ preprocess::ParticleRequest read_particles(Table particles, int dimension) {
   };
   const bool lattice = request.arrangement == Arrangement::lattice;
   only_for("lattice", request.lattice != LatticeKind::cubic, lattice, "lattices");
+  only_for("jitter", request.jitter > 0, lattice, "lattices");
   only_for("relax", request.relax > 0, !lattice, "irregular clouds");
   only_for("relax_seeds", request.relax_seeds > 0, request.arrangement == Arrangement::voronoi,
            "voronoi clouds");

@@ -1,7 +1,9 @@
 #include "preprocess/cloud/arrange.hpp"
 
 #include "preprocess/cloud/renumber.hpp"
+#include "preprocess/seeding/body_boxes.hpp"
 #include "preprocess/seeding/poisson.hpp"
+#include "preprocess/seeding/random.hpp"
 #include "preprocess/voronoi/relax.hpp"
 #include "preprocess/voronoi/two_pass.hpp"
 
@@ -52,6 +54,25 @@ class Snap {
   std::vector<Vec3> constant_; ///< by surface: the coordinates all its vertices share, NaN where they differ
 };
 
+/// Moves the particles that lie on no face, edge or corner by up to `share` spacings along each axis; those
+/// it would lead out of the body stay.
+void jitter(Arranged& lattice, const TetBody& body, double share, std::uint64_t seed) {
+  const BodyBoxes inside(body);
+  const int dimension = body.domain->dimension;
+  RandomNumbers numbers(seed);
+  for (std::int64_t i = 0; i < lattice.size(); ++i) {
+    Vec3 X = lattice.X[i];
+    for (int c = 0; c < dimension; ++c)
+      X[c] += share * lattice.spacing * (2 * numbers.next() - 1);
+    const Vec3 scaled = body.scaling.in(X);
+    if (lattice.place[i].dimension < dimension || !inside.holds(scaled))
+      continue;
+    lattice.X[i] = X;
+    lattice.scaled[i] = scaled;
+  }
+  lattice.graph_from = lattice.scaled; // no lattice any more
+}
+
 Arranged arrange_lattice(const TetBody& body, const CadTopology& cad, const ParticleRequest& request) {
   const LatticeSpec spec = request.count > 0
                                ? lattice_for_count(*body.domain, cad, request.lattice, request.count).spec
@@ -66,6 +87,8 @@ Arranged arrange_lattice(const TetBody& body, const CadTopology& cad, const Part
   }
   result.place = lattice.place;
   result.spacing = result.h = spec.spacing;
+  if (request.jitter > 0)
+    jitter(result, body, request.jitter, request.seed);
   return result;
 }
 

@@ -64,10 +64,10 @@ void check_request(const Domain& domain, const ParticleRequest& request) {
   }
 }
 
-const char* name_of(Arrangement arrangement) {
-  switch (arrangement) {
+const char* name_of(const ParticleRequest& request) {
+  switch (request.arrangement) {
   case Arrangement::lattice:
-    return "lattice";
+    return request.jitter > 0 ? "jittered" : "lattice";
   case Arrangement::voronoi:
     return "voronoi";
   default:
@@ -81,8 +81,8 @@ void fill_geometry(const TetBody& body, const Arranged& arranged, const CellMeas
   const std::int64_t n = arranged.size();
   cloud.dimension = body.domain->dimension;
   cloud.domain_volume = body.domain->volume;
-  cloud.seed = request.arrangement == Arrangement::lattice ? 0 : request.seed;
-  cloud.arrangement = name_of(request.arrangement);
+  cloud.arrangement = name_of(request);
+  cloud.seed = cloud.arrangement == "lattice" ? 0 : request.seed;
   cloud.subvolumes = request.subvolumes == Subvolumes::voronoi ? "voronoi" : "uniform";
   cloud.spacing = arranged.spacing > 0
                       ? arranged.spacing

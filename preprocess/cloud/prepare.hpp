@@ -46,14 +46,16 @@ struct ParticleRequest {
   double spacing = 0;     ///< m, away from refinements; exactly one of spacing and count is positive
   std::int64_t count = 0; ///< particles wanted; reached within 2 % where the arrangement allows
   std::uint64_t seed = 1; ///< Mersenne twister
-  double merge = 0.5;     ///< vertices of the first pass nearer than merge * (V/N)^(1/3) become one particle
-  int relax_seeds = 0;    ///< Lloyd sweeps on the seeds of a two-pass cloud
-  int relax = 0;          ///< constrained Lloyd sweeps on the particles of an irregular cloud
+  double jitter = 0;   ///< inner particles of a lattice are moved by up to so many spacings along each axis
+  double merge = 0.5;  ///< vertices of the first pass nearer than merge * (V/N)^(1/3) become one particle
+  int relax_seeds = 0; ///< Lloyd sweeps on the seeds of a two-pass cloud
+  int relax = 0;       ///< constrained Lloyd sweeps on the particles of an irregular cloud
   std::vector<Refinement> refine; ///< finer regions of an irregular cloud
   bool sizes_from_mesh = false;   ///< also: spacing in proportion to the edges of the domain's tetrahedra
   Backend backend = Backend::clipper;
   /// How far it is found out which particles see each other past slots and holes: in spacings on a lattice
-  /// (0: 3.2), elsewhere in distances to the 30th visible neighbour (14th in the plane; 0: 1.5).
+  /// without jitter (0: 3.2), elsewhere in distances to the 30th visible neighbour (14th in the plane;
+  /// 0: 1.5).
   double sight = 0;
   bool keep_cells = false; ///< also return the polyhedra
   std::vector<SetSelector> sets;

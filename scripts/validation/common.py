@@ -134,9 +134,9 @@ class Bench:
         self.tables = {}   # name of the marker in docs/validation.md: Table
         self.failures = []
 
-    def run(self, case, name, end_time=None, frames=1, rows=200, probes=None, **keys):
+    def run(self, case, name, end_time=None, frames=1, rows=200, probes=None, cloud=None, **keys):
         """Runs geometries/`case` into the folder `name`. Keys override the case's: solver__jst4=0 is solver.jst4 = 0;
-        probes (inline tables of TOML) take the place of the case's."""
+        probes (inline tables of TOML) take the place of the case's, the particles of the file `cloud` that of new ones."""
         keys = {**keys, "output__frames": frames, "output__history_rows": rows}
         if end_time is not None:
             keys["solver__end_time"] = end_time
@@ -154,6 +154,8 @@ class Bench:
         folder.mkdir(parents=True, exist_ok=True)
         done.unlink(missing_ok=True)
         command = [str(self.program), "solve", str(case_file), "-o", str(folder), "--quiet", "--threads", "1"]
+        if cloud:
+            command += ["--cloud", str(cloud)]
         for item in sets:
             command += ["--set", item]
         result = subprocess.run(command, capture_output=True, text=True)

@@ -63,12 +63,13 @@ class Body {
 
   std::int64_t size() const { return static_cast<std::int64_t>(V.size()); }
 
-  /// Positions are now x: the strains follow by the discrete gradient, so that F and x agree in what the
-  /// operators see, (2.169).
-  void deform(std::vector<Vec<D>> x) {
+  /// Positions are now x. Fields of strain begin with `gradients`, where these are known better than the
+  /// particles' positions tell: what the operators miss of a smooth F is then missed in its changes only.
+  /// Else they follow by the discrete gradient, so that F and x agree in what the operators see, (2.169).
+  void deform(std::vector<Vec<D>> x, const std::vector<Mat<D>>& gradients = {}) {
     U.x = std::move(x);
     for_each(size(), [&](std::int64_t a) {
-      const Mat<D> F = gradient_of(U.x, a);
+      const Mat<D> F = gradients.empty() ? gradient_of(U.x, a) : gradients[a];
       if constexpr (Formulation::evolves_F)
         U.F[a] = F;
       if constexpr (Formulation::evolves_H)

@@ -23,13 +23,19 @@ std::vector<Vec<D>> initial_momenta(const SceneSpec& scene, const ParticleCloud&
 template <int D>
 std::vector<Vec<D>> initial_positions(const SceneSpec& scene, const ParticleCloud& cloud);
 
+/// Deformation gradients of the formula that displaces the whole body. Empty where none does, where a set of
+/// particles is then displaced on its own (no formula knows the step between them), where the formula has no
+/// slope, and with the thesis' scheme, whose figures begin with the gradient of the particles' positions.
+template <int D>
+std::vector<Mat<D>> initial_gradients(const SceneSpec& scene, const ParticleCloud& cloud);
+
 /// Gives a body at rest the state its scene begins with.
 template <class Body>
 void set_initial(const SceneSpec& scene, const ParticleCloud& cloud, Body& body) {
   constexpr int D = Body::dimension;
   body.U.p = initial_momenta<D>(scene, cloud);
   if (std::vector<Vec<D>> x = initial_positions<D>(scene, cloud); !x.empty()) {
-    body.deform(std::move(x));
+    body.deform(std::move(x), initial_gradients<D>(scene, cloud));
     body.commit();
   }
 }

@@ -145,6 +145,10 @@ TEST(Case, WhatAnArrangementHasNoUseForIsRefusedUnlessItAsksForNothing) {
             "");
   EXPECT_NE(message("arrangement = \"voronoi\"\nlattice = \"hexagonal\""), "");
   EXPECT_NE(message("arrangement = \"poisson\"\nrelax_seeds = 1"), "");
+  EXPECT_NE(message("arrangement = \"poisson\"\njitter = 0.1").find("jitter does nothing"),
+            std::string::npos);
+  EXPECT_EQ(message("arrangement = \"lattice\"\njitter = 0.3"), "");
+  EXPECT_NE(message("arrangement = \"lattice\"\njitter = 0.5").find("from 0 to 0.45"), std::string::npos);
   EXPECT_EQ(message("arrangement = \"lattice\"\nrelax = 0\nseed = 7\nmerge = 0.4"), "");
   EXPECT_NE(message("arrangement = \"voronoi\"\nrefine = [{around = \"x_min\", factor = 2, until = 1}]")
                 .find("above 1"),

@@ -109,6 +109,31 @@ TEST(Prepare, LatticeOfTheCubeHasItsPointsOnAllFaces) {
   }
 }
 
+TEST(Prepare, JitterMovesInnerParticlesOfALatticeAndCutsTheirCells) {
+  ParticleRequest request;
+  request.spacing = 0.25;
+  const ParticleCloud regular = prepare(test::l_domain(), request, Progress::silent()).cloud;
+  request.jitter = 0.3;
+  const Prepared moved = prepare(test::l_domain(), request, Progress::silent());
+  const ParticleCloud& cloud = moved.cloud;
+  EXPECT_EQ(cloud.arrangement, "jittered");
+  EXPECT_LT(moved.quality.volume_error, 1e-12);
+  ASSERT_EQ(cloud.size(), regular.size());
+  const auto has = [&](const Vec3& X, std::uint8_t dimension, double reach) {
+    for (std::int64_t b = 0; b < regular.size(); ++b)
+      if (regular.cad_dimension[b] == dimension && (regular.X[b] - X).cwiseAbs().maxCoeff() <= reach)
+        return true;
+    return false;
+  };
+  std::int64_t far = 0;
+  for (std::int64_t a = 0; a < cloud.size(); ++a) {
+    const bool inner = cloud.cad_dimension[a] == 3;
+    EXPECT_TRUE(has(cloud.X[a], cloud.cad_dimension[a], inner ? 0.3 * 0.25 : 0)) << a;
+    far += inner && !has(cloud.X[a], 3, 0.15 * 0.25);
+  }
+  EXPECT_GT(far, 0);
+}
+
 TEST(Prepare, UniformSubvolumesKeepTheBoundaryAreasOfTheCells) {
   const Domain box = test::box_domain();
   ParticleRequest request = lattice(0.125);

@@ -86,3 +86,26 @@ TEST(Conditions, InitialDisplacementsMoveTheirSetOnly) {
   EXPECT_EQ(x[particle_at(cloud, Vec3(1, 0, 0))], Vec3(1.1, 0, 0));
   EXPECT_EQ(x[particle_at(cloud, Vec3(0.5, 0, 0))], Vec3(0.5, 0, 0));
 }
+
+TEST(Conditions, StrainsBeginWithTheSlopeOfTheFormulaThatDisplacesAll) {
+  const auto cloud = test::box_lattice(3, 3, 3, Vec3(1, 1, 1));
+  SceneSpec scene;
+  scene.scheme = "consistent";
+  EXPECT_TRUE(initial_gradients<3>(scene, cloud).empty());
+  scene.initial.push_back(
+      {"all", {}, Formulas{Expression("0.1*sin(X)*Y"), Expression("0.2*Z^3"), Expression("0")}});
+  const auto F = initial_gradients<3>(scene, cloud);
+  const std::int32_t a = particle_at(cloud, Vec3(1, 0.5, 1));
+  Mat3 expected = Mat3::Identity();
+  expected(0, 0) += 0.05 * std::cos(1);
+  expected(0, 1) = 0.1 * std::sin(1);
+  expected(1, 2) = 0.6;
+  EXPECT_LT((F.at(a) - expected).norm(), 1e-12);
+  scene.scheme = "thesis";
+  EXPECT_TRUE(initial_gradients<3>(scene, cloud).empty());
+  scene.scheme = "consistent";
+  scene.initial.push_back({"x_max", {}, Formulas{Expression("0.1*X"), Expression("0"), Expression("0")}});
+  EXPECT_TRUE(initial_gradients<3>(scene, cloud).empty());
+  scene.initial.back() = {"all", {}, Formulas{Expression("sqrt(X)"), Expression("0"), Expression("0")}};
+  EXPECT_TRUE(initial_gradients<3>(scene, cloud).empty());
+}
