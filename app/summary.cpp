@@ -47,6 +47,10 @@ std::string print(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json step_json(const solver::StepChoice& step) {
+  return {{"by_wave", step.by_wave}, {"critical", step.critical}, {"bound", step.bound}};
+}
+
 } // namespace
 
 std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const solver::Summary& s) {
@@ -69,6 +73,7 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
   json["time"] = s.time;
   json["dt_min"] = s.dt_min;
   json["dt_max"] = s.dt_max;
+  json["step"] = step_json(s.step);
   json["wall_seconds"] = s.wall_seconds;
   json["us_per_particle_step"] = s.us_per_particle_step;
   json["threads"] = s.threads;
@@ -114,6 +119,7 @@ std::string outlook_json(const Case& the_case, const Outlook& o) {
     json["mass"] = f.mass;
     json["wave_speed"] = f.wave_speed;
     json["dt"] = f.dt;
+    json["step"] = step_json(f.step);
     json["steps"] = f.steps;
     json["neighbours_mean"] = f.neighbours_mean;
     json["bytes_per_particle"] = f.bytes_per_particle;
@@ -153,6 +159,10 @@ std::string outlook_text(const Case& the_case, const Outlook& o) {
   line("wave speed", fmt::format("{:.6g} m/s", f.wave_speed));
   line("time step",
        fmt::format("{:.4g} s: at least {} steps to {:.4g} s", f.dt, f.steps, the_case.scene.end_time));
+  line("", fmt::format("{:.3g} of the {:.4g} s a wave takes to the nearest particle (3.93), {:.3g} of the "
+                       "critical {:.4g} s{}",
+                       f.dt / f.step.by_wave, f.step.by_wave, f.dt / f.step.critical, f.step.critical,
+                       f.step.bound == "critical" ? ", which binds" : ": the first binds"));
   line("memory", fmt::format("{:.1f} MB ({:.0f} bytes a particle)",
                              f.bytes_per_particle * static_cast<double>(o.quality.particles) / 1e6,
                              f.bytes_per_particle));

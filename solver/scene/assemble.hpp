@@ -44,8 +44,8 @@ template <class Body>
 StepLimit<Body> make_limit(const SceneSpec& scene, double smallest) {
   constexpr double none = std::numeric_limits<double>::infinity(), enough = 0.8;
   if (chosen_integrator(scene) == "verlet")
-    return {none, chosen_cfl(scene)};
-  return {chosen_cfl(scene) * smallest, Body::dissipates ? enough : 0};
+    return {smallest, none, chosen_cfl(scene)};
+  return {smallest, chosen_cfl(scene), Body::dissipates ? enough : 0};
 }
 
 /// Calls use(assembly): a body is built where it stays.
@@ -93,15 +93,17 @@ double bytes_per_particle(double neighbours, std::size_t history_bytes, bool ext
   constexpr std::size_t state = 2 * vector + Formulation::evolves_F * tensor +
                                 Formulation::evolves_H * sizeof(Mat3) + Formulation::evolves_J * number;
   const double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;
-  const double a_particle = sizeof(std::int64_t) + number        // row, support
-                            + number + vector                    // V, s
-                            + 3 * state                          // U, R and U^n
-                            + !Formulation::evolves_F * tensor   // grad x
-                            + static_cast<double>(history_bytes) //
-                            + tensor + vector                    // P, T
-                            + number + vector                    // wave, numerical impulse
-                            + (external ? vector : 0)            // impulse from outside
-                            + Dissipation::particle_bytes;       //
+  const double a_particle = sizeof(std::int64_t) + number           // row, support
+                            + number + vector                       // V, s
+                            + 3 * state                             // U, R and U^n
+                            + Formulation::evolves_J * number       // numerical changes of J
+                            + Formulation::evolves_H * sizeof(Mat3) // and H
+                            + !Formulation::evolves_F * tensor      // grad x
+                            + static_cast<double>(history_bytes)    //
+                            + tensor + vector                       // P, T
+                            + number + vector                       // wave, numerical impulse
+                            + (external ? vector : 0)               // impulse from outside
+                            + Dissipation::particle_bytes;          //
   return an_edge * neighbours + a_particle;
 }
 

@@ -19,6 +19,10 @@ inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+inline StepChoice step_choice(const StepBounds& bounds) {
+  return {bounds.by_wave, bounds.critical, bounds.critical_binds ? "critical" : "wave"};
+}
+
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                      Progress& progress, Assembly<Body>& assembly) {
@@ -26,6 +30,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   auto& step = *assembly.step;
   auto& limit = assembly.limit;
   double dt = limit(body);
+  const StepBounds bounds = limit.bounds(body);
   step.start(body, dt);
   Reporter<Body> reporter(scene, cloud, outputs, assembly);
 
@@ -39,6 +44,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   summary.threads = threads();
   summary.bytes_per_particle = bytes_of<Body>(assembly);
   summary.dt_min = summary.dt_max = dt;
+  summary.step = step_choice(bounds);
 
   double time = 0;
   const double start = seconds_now();
@@ -143,6 +149,7 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
   forecast.mass = body.density * sum(body.size(), 0.0, [&](std::int64_t a) { return body.V[a]; });
   forecast.wave_speed = body.wave_speed;
   forecast.dt = limit(body);
+  forecast.step = step_choice(limit.bounds(body));
   forecast.steps = static_cast<std::int64_t>(std::ceil(scene.end_time / forecast.dt));
   forecast.neighbours_mean = body.neighbours.mean();
   forecast.bytes_per_particle = bytes_of<Body>(assembly);

@@ -159,6 +159,13 @@ struct ErrorNorms {
   double l2_pressure_relative = 0;
 };
 
+/// The two steps that the first step of a run is taken from, before either's share of them.
+struct StepChoice {
+  double by_wave = 0;  ///< smallest particle distance over the fastest wave, (3.93) with sigma = 1, s
+  double critical = 0; ///< from which on the operators amplify some field, s
+  std::string bound;   ///< which it was that gave the smaller step: "wave" or "critical"
+};
+
 /// What a run came to; keys of summary.json carry the same names.
 struct Summary {
   std::string formulation, scheme, dissipation; ///< dissipation "none" where its constants are zero
@@ -167,6 +174,7 @@ struct Summary {
   double support = 0; ///< largest kernel radius, m
   std::int64_t steps = 0;
   double time = 0, dt_min = 0, dt_max = 0; ///< s
+  StepChoice step;
   double wall_seconds = 0, us_per_particle_step = 0;
   int threads = 0;
   double bytes_per_particle = 0;
@@ -181,9 +189,10 @@ struct Summary {
 
 /// What a scene would need, found without running it.
 struct Forecast {
-  double mass = 0;        ///< kg
-  double wave_speed = 0;  ///< pressure wave, undeformed, m/s
-  double dt = 0;          ///< first step, s
+  double mass = 0;       ///< kg
+  double wave_speed = 0; ///< pressure wave, undeformed, m/s
+  double dt = 0;         ///< first step, s
+  StepChoice step;
   std::int64_t steps = 0; ///< end_time / dt: more when the body is compressed
   double neighbours_mean = 0;
   double bytes_per_particle = 0;

@@ -33,7 +33,7 @@ class Heun final : public Step<Body> {
     body.rates();
     this->conserve(body, U.x);
     this->load(body, U.x, time, dt, 0.5);
-    this->note(body, 0.5 * dt);
+    note_all(body, 0.5 * dt);
     advance(U, dt, R);
     hold_middle(body, time, dt);
     body.stresses();
@@ -44,12 +44,20 @@ class Heun final : public Step<Body> {
     average(U.x, U_n.x, dt, R.x);
     this->conserve(body, U.x);
     this->load(body, place_, time + dt, dt, 0.5);
-    this->note(body, 0.5 * dt);
+    note_all(body, 0.5 * dt);
     average(U.p, U_n.p, dt, R.p);
     average_strains(U, U_n, dt, R);
     this->limit(body, U.x, time + dt, dt);
     this->hold(body, time + dt);
     body.commit();
+  }
+
+  void note_all(const Body& body, double dt) {
+    this->note(body, dt);
+    if constexpr (Body::Formulation::evolves_J)
+      this->note_J(body, dt);
+    if constexpr (Body::Formulation::evolves_H)
+      this->note_H(body, dt);
   }
 
   /// The first stage's momenta move a particle from the middle of x^n and x* to x^(n+1), in dt/2.

@@ -3,6 +3,7 @@
 
 #include "solver/boundary/conditions.hpp"
 #include "solver/physics/body.hpp"
+#include "solver/time/advance.hpp"
 #include "solver/time/momentum_projection.hpp"
 
 #include <algorithm>
@@ -18,8 +19,9 @@ class Step {
 
   virtual ~Step() = default;
 
-  double dissipated() const { return dissipated_; } ///< J, by dissipation and the momentum projection
-  double external() const { return external_; }     ///< J, work done on the body from outside
+  /// J, by dissipation, the momentum projection and the penalty on H and J.
+  double dissipated() const { return dissipated_; }
+  double external() const { return external_; } ///< J, work done on the body from outside
 
   bool works() const { return works_; } ///< whether anything outside may work on the body
   std::vector<Wall<D>>& walls() { return outside_.walls; }
@@ -27,6 +29,10 @@ class Step {
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
+    if constexpr (Body::Formulation::evolves_J)
+      numerical_J_.assign(body.V.size(), 0.0);
+    if constexpr (Body::Formulation::evolves_H)
+      numerical_H_.assign(body.V.size(), Mat3::Zero());
     if (works_)
       external_impulse_.assign(body.V.size(), Vec<D>::Zero());
     if (loaded_)
@@ -101,6 +107,21 @@ class Step {
     });
   }
 
+  /// Notes by how much the rates of J change it over dt beyond what the motion asks for, H : G.
+  void note_J(const Body& body, double dt) {
+    for_each(body.size(), [&](std::int64_t a) {
+      numerical_J_[a] += dt * (body.R.J[a] - body.strain(a).H.cwiseProduct(embed_rate(body.R.F[a])).sum());
+    });
+  }
+  /// The same where the rates of J hold none of the motion's.
+  void note_change_of_J(double dt, const std::vector<double>& rate) { advance(numerical_J_, dt, rate); }
+  /// As note_J of H, beyond F x G.
+  void note_H(const Body& body, double dt) {
+    for_each(body.size(), [&](std::int64_t a) {
+      numerical_H_[a] += dt * (body.R.H[a] - cross(embed(body.U.F[a]), embed_rate(body.R.F[a])));
+    });
+  }
+
   /// Contact and essential conditions on momenta that take the particles from x at `time` onwards over dt and
   /// of whose change the share reaches the end of the step.
   void limit(Body& body, const std::vector<Vec<D>>& x, double time, double dt, double share = 1) {
@@ -126,16 +147,40 @@ class Step {
       return work;
     };
     dissipated_ -= work_of(numerical_);
+    if constexpr (Body::Formulation::evolves_J)
+      dissipated_ -= stored_by_numerics(body);
     if (works_)
       external_ += work_of(external_impulse_);
+  }
+
+  /// J, by which the changes of H and J that are not the motion's have raised the stored energy: taken half
+  /// way through the step, where they were made.
+  double stored_by_numerics(const Body& body) {
+    const double stored = sum(body.size(), 0.0, [&](std::int64_t a) {
+      Strain less = Strain::of(embed(Mat<D>(0.5 * (before_.F[a] + body.U.F[a]))));
+      less.J = 0.5 * (before_.J[a] + body.U.J[a] - numerical_J_[a]);
+      Strain more = less;
+      more.J += numerical_J_[a];
+      if constexpr (Body::Formulation::evolves_H) {
+        less.H = 0.5 * (before_.H[a] + body.U.H[a] - numerical_H_[a]);
+        more.H = less.H + numerical_H_[a];
+      }
+      return body.V[a] * (body.material->energy(more, a) - body.material->energy(less, a));
+    });
+    std::fill(numerical_J_.begin(), numerical_J_.end(), 0.0);
+    std::fill(numerical_H_.begin(), numerical_H_.end(), Mat3::Zero());
+    return stored;
   }
 
   bool projects_;
   bool works_;
   bool pushed_;
-  bool loaded_;                          ///< by loads or penalties
-  std::vector<Vec<D>> force_;            ///< of them, N/m^3
-  std::vector<Vec<D>> numerical_;        ///< impulse of dissipation and projection in this step, kg/(m^2 s)
+  bool loaded_;                   ///< by loads or penalties
+  std::vector<Vec<D>> force_;     ///< of them, N/m^3
+  std::vector<Vec<D>> numerical_; ///< impulse of dissipation and projection in this step, kg/(m^2 s)
+  std::vector<double>
+      numerical_J_; ///< change of J in this step that is none of the motion's, where J is evolved
+  std::vector<Mat3> numerical_H_;        ///< the same of H
   std::vector<Vec<D>> external_impulse_; ///< of walls, loads and moving boundaries in this step, kg/(m^2 s)
   double dissipated_ = 0;
   double external_ = 0;

@@ -12,26 +12,43 @@
 
 namespace tessera::solver {
 
+/// The two steps a body's is taken from, s, both before sigma and share: the time the fastest wave takes over
+/// the smallest particle distance, (3.93), and the critical step of its operator.
+struct StepBounds {
+  double by_wave, critical;
+  bool critical_binds;
+};
+
 /// The smaller of two, each where it is asked for:
-///   length / c_max, (3.93), with c_max the fastest pressure wave as the body is deformed and length sigma
-///   times the smallest particle distance (m);
+///   sigma times the smallest particle distance over c_max, (3.93), with c_max the fastest pressure wave as
+///   the body is deformed;
 ///   a share of the critical step.
 template <class Body>
 class StepLimit {
  public:
-  /// length: infinite for no such limit; share: zero for none.
-  StepLimit(double length, double share) : length_(length), share_(share) {}
+  /// smallest: particle distance, m; sigma: infinite for no such limit; share: zero for none.
+  StepLimit(double smallest, double sigma, double share)
+      : smallest_(smallest), sigma_(sigma), share_(share) {}
 
   /// For the step to come, s.
   double operator()(Body& body) {
-    const double by_distance =
-        std::isfinite(length_) ? length_ / body.fastest_wave() : std::numeric_limits<double>::infinity();
+    const double by_distance = std::isfinite(sigma_) ? sigma_ * smallest_ / body.fastest_wave()
+                                                     : std::numeric_limits<double>::infinity();
     return share_ == 0 ? by_distance : std::min(by_distance, share_ * follow(body, by_distance / share_));
   }
 
+  /// Of the body as it is. The critical step is looked for where no step has asked for it.
+  StepBounds bounds(Body& body) {
+    if (stiffness_.empty())
+      begin(body);
+    const double critical = critical_.value();
+    return {by_wave(body), critical, share_ > 0 && share_ * critical < sigma_ * by_wave(body)};
+  }
   double critical() const { return critical_.value(); } ///< as last found, s; zero without
 
  private:
+  double by_wave(const Body& body) const { return smallest_ / body.fastest_wave(); }
+
   /// The critical step, where it may be less than `enough`. Between one look at the operator and the next the
   /// particle that could vibrate fastest, the others held, says how it has shrunk.
   double follow(Body& body, double enough) {
@@ -79,7 +96,7 @@ class StepLimit {
     return max_of(body.size(), 0.0, [&](std::int64_t a) { return body.wave[a] * stiffness_[a]; });
   }
 
-  double length_, share_;
+  double smallest_, sigma_, share_;
   CriticalStep<Body> critical_;
   std::vector<double> stiffness_; ///< of every particle, 1/m
   double pace_ = 0;               ///< when the operator was looked at last, 1/s

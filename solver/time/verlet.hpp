@@ -29,8 +29,10 @@ class Verlet final : public Step<Body> {
 
   void take(Body& body, double time, double dt) override {
     kick(body, 0.5 * dt);
-    if constexpr (Body::dissipates_J)
+    if constexpr (Body::dissipates_J) {
+      this->note_change_of_J(dt, body.R.J);
       advance(body.U.J, dt, body.R.J);
+    }
     this->limit(body, body.U.x, time, dt);
     this->hold(body, time + 0.5 * dt);
 
@@ -66,15 +68,22 @@ class Verlet final : public Step<Body> {
       advance(U.F, 0.5 * dt, R.F);
       body.map_rates();
       if constexpr (Body::Formulation::evolves_H) {
-        advance(U.H, 0.5 * dt, R.H);
+        drift_H(body, 0.5 * dt);
         body.map_rates();
-        advance(U.H, 0.5 * dt, R.H);
       }
+      this->note_J(body, dt);
       advance(U.J, dt, R.J);
+      if constexpr (Body::Formulation::evolves_H)
+        drift_H(body, 0.5 * dt);
       advance(U.F, 0.5 * dt, R.F);
     } else if constexpr (Body::Formulation::evolves_F) {
       advance(U.F, dt, R.F);
     }
+  }
+
+  void drift_H(Body& body, double dt) {
+    this->note_H(body, dt);
+    advance(body.U.H, dt, body.R.H);
   }
 };
 

@@ -86,7 +86,7 @@ TEST(Output, RunWritesWhatItPromises) {
                           "particles",    "neighbours_mean",
                           "support",      "spacing",
                           "steps",        "time",
-                          "dt_min",       "dt_max",
+                          "dt_min",       "dt_max",   "step",
                           "wall_seconds", "us_per_particle_step",
                           "threads",      "bytes_per_particle",
                           "volume_sum",   "energy",

@@ -212,6 +212,34 @@ TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
             forecast.left_out.end());
 }
 
+TEST(Forecast, SaysWhichOfTheTwoStepsBinds) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  const StepChoice heun = tessera::solver::forecast(scene, cloud).step;
+  EXPECT_EQ(heun.bound, "wave");
+  EXPECT_LT(0.3 * heun.by_wave, 0.8 * heun.critical);
+
+  scene.integrator = "verlet";
+  scene.cfl = 0.7;
+  const Forecast verlet = tessera::solver::forecast(scene, cloud);
+  EXPECT_EQ(verlet.step.bound, "critical");
+  EXPECT_DOUBLE_EQ(verlet.step.by_wave, heun.by_wave);
+  EXPECT_NEAR(verlet.dt / (0.7 * verlet.step.critical), 1, 1e-12);
+
+  // Dissipation far stronger than usual takes the step over from (3.93).
+  scene.integrator = "heun";
+  scene.cfl = 0.3;
+  scene.dissipation = "linear_residual";
+  scene.jst4.reset();
+  scene.residual = PlasticRamp::constant(4);
+  const Forecast stiff = tessera::solver::forecast(scene, cloud);
+  EXPECT_EQ(stiff.step.bound, "critical");
+  EXPECT_LT(stiff.dt, 0.3 * stiff.step.by_wave);
+  const Summary summary = run(scene, cloud, {}, Progress::silent());
+  EXPECT_EQ(summary.step.bound, "critical");
+  EXPECT_DOUBLE_EQ(summary.step.critical, stiff.step.critical);
+}
+
 TEST(Run, HalvesThatCannotSeeEachOtherDoNotFeelEachOther) {
   auto cloud = test::box_lattice(8, 4, 4, Vec3(0.07, 0.03, 0.03));
   ParticleSet left{"left", {}, {}};

@@ -89,6 +89,23 @@ TYPED_TEST(Critical, IsWhereVerletsStepBeginsToAmplify) {
   }
 }
 
+TYPED_TEST(Critical, CountsTheDissipationOfJ) {
+  // Alone J bears 2 / C_J, which here is far below what the momenta bear.
+  constexpr int D = TypeParam::value;
+  const auto critical_with = [](double kappa, double kappa_J) {
+    ResidualDissipationWithJ<D> dissipation;
+    dissipation.kappa = PlasticRamp::constant(kappa);
+    dissipation.kappa_J = kappa_J;
+    auto body = make_body<PFJ<D>>(irregular_block<D>(), dissipation);
+    CriticalStep<decltype(body)> critical;
+    critical.refine(body, 60);
+    return critical.value();
+  };
+  EXPECT_NEAR(critical_with(0.1, 40) / critical_with(0.1, 20), 0.5, 0.02);
+  EXPECT_NEAR(critical_with(20, 0.1) / critical_with(0.1, 20), 1, 0.05);
+  EXPECT_LT(critical_with(1, 1), 0.95 * critical_with(1, 0.01));
+}
+
 TYPED_TEST(Critical, LeavesTheBodyAsItWas) {
   constexpr int D = TypeParam::value;
   const ParticleCloud cloud = irregular_block<D>();
@@ -114,7 +131,7 @@ TYPED_TEST(Critical, FollowsABodyAsItIsSqueezed) {
   // At a constant volume, to half the width: waves take half the time through it.
   constexpr int D = TypeParam::value;
   auto body = irregular_body<D>(0);
-  StepLimit<decltype(body)> limit(std::numeric_limits<double>::infinity(), 1);
+  StepLimit<decltype(body)> limit(1, std::numeric_limits<double>::infinity(), 1);
   const double at_rest = limit(body);
   for (int i = 0; i <= 200; ++i) {
     const double squeeze = 1 - 0.5 * i / 200;
@@ -136,7 +153,7 @@ TYPED_TEST(Critical, FollowsABodyAsItIsSqueezed) {
 
 TYPED_TEST(Critical, ALimitByDistanceIsThatOfTheFastestWave) {
   auto body = irregular_body<TypeParam::value>(0);
-  StepLimit<decltype(body)> limit(0.01, 0);
+  StepLimit<decltype(body)> limit(0.1, 0.1, 0);
   EXPECT_DOUBLE_EQ(limit(body), 0.01 / body.fastest_wave());
   EXPECT_EQ(limit.critical(), 0);
 }
