@@ -197,12 +197,58 @@ def taylor_bar_unstructured(bench):
                           run["probes.plastic_strain"], run.history["dissipated_J"][-1])
 
 
+def taylor_bar_converged(bench):
+    """The bar of 32.4 mm on relaxed two-pass clouds, its whole history against the converged one."""
+    case = "taylor_bar/converged.toml"
+    if bench.short:
+        run = bench.run(case, "short", end_time=20e-6, rows=100, particles__count=1500)
+        bench.require(run.good, "1500 relaxed particles strike the wall")
+        wide, long = worst_differences(run, 20e-6)
+        bench.require_below("radius, largest difference from the converged bar's up to 20 us", wide, 0.03)
+        bench.require_below("length, the same", long, 0.01)
+        return
+    table = bench.grid("taylor_converged", "particles", "seed", "radius, mm (7.23)", "length, mm (21.43)", "radius: worst of its history",
+                       "length: worst", "round", "largest plastic strain", "steps", "balance error")
+    for count, seed in ((1000, 1), (2000, 1), (4000, 1), (4000, 2), (4000, 3), (8000, 1), (30000, 1)):
+        run = bench.run(case, f"{count}_{seed}", rows=400, particles__count=count, particles__seed=seed)
+        if not run.good:
+            table.row(count, seed, run.error)
+            continue
+        wide, long = worst_differences(run, 80e-6)
+        outline = unroundness(run.frame_near(80e-6))
+        table.row(run["particles"], seed, 1e3 * run["probes.radius_m"], 1e3 * run["probes.length_m"], f"{100 * wide:.2f} %",
+                  f"{100 * long:.2f} %", outline, run["probes.plastic_strain"], run["steps"], run["energy.balance_error"])
+        if count == 4000:
+            bench.require_below(f"radius over its history, seed {seed}", wide, 0.03)
+            bench.require_below(f"length over its history, seed {seed}", long, 0.02)
+            bench.require_below(f"largest over smallest radius in sixteen directions, seed {seed}", outline, 1.03)
+        if count == 30000:
+            bench.require_below("radius at the end", abs(run["probes.radius_m"] / 7.2326e-3 - 1), 0.015)
+            bench.require_below("length at the end", abs(run["probes.length_m"] / 21.430e-3 - 1), 0.007)
+
+
+def worst_differences(run, end):
+    """Largest relative differences of radius and length from the converged bar's at its times up to `end`."""
+    rows = [row for row in taylor_reference() if 0 < row[0] <= end * (1 + 1e-4)]
+    return (max(abs(run.at(time, "radius_m") / radius - 1) for time, radius, _ in rows),
+            max(abs(run.at(time, "length_m") / length - 1) for time, _, length in rows))
+
+
+def unroundness(frame):
+    """Largest over smallest radius of the particles in sixteen directions."""
+    radius = [0.0] * 16
+    for x, y, _ in vtu.read_points(frame):
+        direction = int((math.atan2(y, x) / math.pi + 1) * 8) % 16
+        radius[direction] = max(radius[direction], math.hypot(x, y))
+    return max(radius) / min(radius)
+
+
 def tensile_cube_unstructured(bench):
     """5.3.1: the cube torn upwards, lattice and two-pass clouds."""
     probes = ['{name = "corner_ux", quantity = "ux", reduce = "mean", on = "corner"}',
               '{name = "corner_uz", quantity = "uz", reduce = "mean", on = "corner"}']
     if bench.short:
-        run = bench.run("tensile_cube/voronoi.toml", "short", end_time=0.01, rows=200)
+        run = bench.run("tensile_cube/voronoi.toml", "short", end_time=0.01, rows=200, solver__scheme='"thesis"')
         bench.require(run.good, "irregular particles are torn upwards")
         bench.require_below("energy balance error", run["energy.balance_error"], 2e-3)
         return
@@ -222,5 +268,5 @@ def tensile_cube_unstructured(bench):
                   sideways[-1])
 
 
-SCENES = {"ecae": ecae, "taylor_bar": taylor_bar, "taylor_bar_unstructured": taylor_bar_unstructured,
+SCENES = {"ecae": ecae, "taylor_bar_converged": taylor_bar_converged, "taylor_bar": taylor_bar, "taylor_bar_unstructured": taylor_bar_unstructured,
           "tensile_cube_unstructured": tensile_cube_unstructured}
