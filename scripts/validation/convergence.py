@@ -37,7 +37,8 @@ IN_SPACE = (
     Cloud("lattice", (9, 17, 25), arrangement="lattice"),
     Cloud("jittered lattice", (9, 17, 25), arrangement="lattice", jitter=0.3),
     Cloud("jittered lattice, κ = 2", (9, 17, 25), schemes=("consistent",), solver={"residual": 2}, arrangement="lattice", jitter=0.3),
-    Cloud("two-pass", (700, 2250, 7000), SEEDS, arrangement="voronoi"),
+    Cloud("two-pass", (700, 2250, 7000, 20000), SEEDS, arrangement="voronoi"),
+    Cloud("two-pass, κ = 2", (700, 2250, 7000, 20000), SEEDS, ("consistent",), {"residual": 2}, arrangement="voronoi"),
     Cloud("two-pass, seeds relaxed", (900, 2700, 8100), arrangement="voronoi", relax_seeds=20),
     Cloud("two-pass, relaxed", (900, 2700, 8100), **RELAXED),
     Cloud("two-pass, relaxed, 18 neighbours", (900, 2700, 8100), schemes=("consistent",), solver={"neighbours": 18}, **RELAXED),
@@ -46,6 +47,7 @@ IN_THE_PLANE = (
     Cloud("lattice", (9, 17, 33, 65), arrangement="lattice"),
     Cloud("jittered lattice", (9, 17, 33, 65), arrangement="lattice", jitter=0.3),
     Cloud("two-pass", (250, 1000, 4000, 16000), SEEDS, arrangement="voronoi"),
+    Cloud("two-pass, seeds relaxed", (250, 1000, 4000, 16000), arrangement="voronoi", relax_seeds=20),
     Cloud("two-pass, relaxed", (250, 1000, 4000, 16000), **RELAXED),
     Cloud("Poisson, relaxed", (250, 1000, 4000, 16000), arrangement="poisson", relax=20))
 Refinement = collections.namedtuple("Refinement", "particles spacing errors")
@@ -156,16 +158,16 @@ def draw(bench, name, results):
         return
     charts = []
     for field, words in (("velocity", "velocity, a quarter of the period"), ("pressure", "pressure, an eighth")):
-        curves = []
-        for (cloud, scheme), line in results.items():
-            if "κ" in cloud or "neighbours" in cloud or "seeds" in cloud:
-                continue
-            curves.append(dict(label=f"{cloud}, {scheme}", x=[one.spacing for one in line], y=[100 * one.errors[field] for one in line],
-                               dots=False, dashed=scheme == "thesis", bars=False))
-        x = [min(c for curve in curves for c in curve["x"]), max(c for curve in curves for c in curve["x"])]
-        for slope, start in ((1, 30), (2, 0.6 if field == "velocity" else 1)):
-            curves.append(dict(label=f"slope {slope}", x=x, y=[start * (c / x[0 if slope == 2 else 1]) ** slope for c in x],
-                               dots=False, dashed=True, bars=False))
+        drawn = {key: line for key, line in results.items() if (key[0], "thesis") in results}
+        x = [one.spacing for line in drawn.values() for one in line]
+        curves = {key: dict(label=key[0] if key[1] == "consistent" else f"{key[0]}, thesis", x=[one.spacing for one in line],
+                            y=[100 * one.errors[field] for one in line], dots=False, dashed=key[1] == "thesis", bars=False)
+                  for key, line in drawn.items()}
+        slopes = [dict(label=f"slope {slope}", x=[min(x), max(x)], y=[error * (c / max(x)) ** slope for c in (min(x), max(x))],
+                       dots=False, dashed=True, bars=False) for slope, error in ((1, 30), (2, 8))]
+        # Six clouds and two slopes are as many curves as there are colours: a cloud has the same with either scheme.
+        curves = [[curves[key] for key in drawn if key[1] == scheme] for scheme in ("consistent", "thesis")]
+        curves = curves[0] + slopes + curves[1]
         charts.append(dict(title=f"Relative L2 error of the {words}", x_title="spacing, m", y_title="error, %",
                            log_x=True, log_y=True, curves=curves))
     job = dict(drawings=[], plots=[dict(file=str(ROOT / f"docs/{name}.png"), charts=charts, beside=False)])
@@ -191,7 +193,8 @@ def choices(bench):
                     row = [at(cloud, cloud.sizes[1], neighbours=n, residual=kappa) for n in counts]
                     table.row(cloud.words, kappa, *[f"{percent(one.errors['velocity'])}, {percent(one.errors['pressure'])}" for one in row])
     case, wave, quarter = "voronoi.toml", Wave(3), 0.004
-    lattice, jittered, _, two_pass, _, relaxed, *_ = IN_SPACE
+    lattice, jittered, two_pass, relaxed = (next(cloud for cloud in IN_SPACE if cloud.words == words) for words in
+                                            ("lattice", "jittered lattice", "two-pass", "two-pass, relaxed"))
     table = bench.grid("dissipations", "cloud", "linear residual, κ = 1", "symmetric JST, κ4 = 1/8", "JST, κ4 = 1/8")
     for cloud in (lattice, jittered, two_pass, relaxed):
         row = [[at(cloud, size, dissipation=kind).errors["velocity"] for size in cloud.sizes[:2]]
