@@ -167,6 +167,15 @@ class Bench:
         self.say(f"  {name}: " + (f"{run['steps']} steps, {run['wall_seconds']:.1f} s" if run.good else error))
         return run
 
+    def copy(self, case, *dropped):
+        """A copy of geometries/`case` without the lines of some keys: those that other choices would be refused beside."""
+        file = ROOT / "geometries" / case
+        lines = [line for line in file.read_text().splitlines() if line.split(" = ")[0] not in dropped]
+        self.out.mkdir(parents=True, exist_ok=True)
+        copy = (self.out / ("-".join(dropped) + "-" + case.replace("/", "-"))).resolve()
+        copy.write_text("\n".join(lines).replace('file = "', f'file = "{file.parent}/') + "\n")
+        return copy
+
     def figures(self, name):
         return self.tables.setdefault(name, Figures())
 
