@@ -157,14 +157,14 @@ BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMill
 BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(correction)->ArgsProduct({{46}, {0, 1}})->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scheme_step, thesis_heun, "thesis", "heun")
-    ->ArgsProduct({{46}, {0, 22}})
+    ->ArgsProduct({{30}, {0, 22}})
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
 BENCHMARK_CAPTURE(scheme_step, consistent_heun, "consistent", "heun")
-    ->ArgsProduct({{46}, {0, 22}})
+    ->ArgsProduct({{30}, {0, 22}})
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
 BENCHMARK_CAPTURE(scheme_step, consistent_verlet, "consistent", "verlet")
-    ->ArgsProduct({{46}, {0, 22}})
+    ->ArgsProduct({{30}, {0, 22}})
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
