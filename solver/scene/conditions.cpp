@@ -190,16 +190,17 @@ std::vector<Mat<D>> initial_gradients(const SceneSpec& scene, const ParticleClou
   const double h = 1e-2 * cloud.spacing;
   constexpr double weight[] = {3. / 4, -3. / 20, 1. / 60};
   std::vector<Mat<D>> gradients(cloud.X.size(), Mat<D>::Identity());
-  for (std::size_t a = 0; a < gradients.size(); ++a) {
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        for (int k = 1; k <= 3; ++k) {
-          const Vec3 away = k * h * Vec3::Unit(j);
-          const Expression& u = (*last->displacement)[i];
-          gradients[a](i, j) += weight[k - 1] / h * (u(cloud.X[a] + away) - u(cloud.X[a] - away));
-        }
-    if (!gradients[a].allFinite())
-      return {};
+  try {
+    for (std::size_t a = 0; a < gradients.size(); ++a)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+          for (int k = 1; k <= 3; ++k) {
+            const Vec3 away = k * h * Vec3::Unit(j);
+            const Expression& u = (*last->displacement)[i];
+            gradients[a](i, j) += weight[k - 1] / h * (u(cloud.X[a] + away) - u(cloud.X[a] - away));
+          }
+  } catch (const InputError&) {
+    return {}; // a formula need not mean anything beside the body
   }
   return gradients;
 }
