@@ -5,6 +5,7 @@ import json
 import math
 import subprocess
 import tempfile
+from statistics import geometric_mean
 
 from common import ROOT
 from measures import percent
@@ -54,10 +55,6 @@ Refinement = collections.namedtuple("Refinement", "particles spacing errors")
 FIELDS = {"velocity": "v", "displacement": "u", "pressure": "p", "stress": "stress"}
 
 
-def mean(values):
-    return math.exp(sum(map(math.log, values)) / len(values))
-
-
 def measure(bench, case, wave, quarter, cloud, scheme, size):
     """A refinement, its errors geometric means over the seeds: velocity at a quarter of the period, the rest at an eighth."""
     particles, found = [], []
@@ -75,9 +72,9 @@ def measure(bench, case, wave, quarter, cloud, scheme, size):
         found.append({**half, "velocity": end["velocity"]})
         particles.append(run["particles"])
         bench.costs[case, cloud.words, scheme, size] = run
-    particles = mean(particles)
+    particles = geometric_mean(particles)
     return Refinement(particles, cloud.spacing(size, particles, wave.dimension),
-                      {field: mean([one[field] for one in found]) for field in FIELDS})
+                      {field: geometric_mean([one[field] for one in found]) for field in FIELDS})
 
 
 def order(coarse, fine, field):

@@ -95,7 +95,7 @@ struct ExactSolution {
 
 /// Found by measurement (docs/theory.md). Metal that flows bears no shear waves that would want damping.
 constexpr double usual_residual = 1, usual_residual_J = 1;
-constexpr PlasticRamp usual_plastic_residual{0.5, 0.1, 0.5};
+constexpr PlasticRamp usual_plastic_residual{0.5, 0.2, 0.5};
 
 struct SceneSpec {
   MaterialSpec material;
