@@ -209,7 +209,7 @@ Document report_of(const fs::path& folder, const std::string& title, const std::
   return report;
 }
 
-/// energies.png and probes.png from history.csv, where there is one.
+/// energies.png and probes.png (of probes that are not zero throughout) from history.csv, where there is one.
 std::vector<Plot> history_plots(const fs::path& folder, const std::string& title, Progress& progress) {
   if (!fs::exists(folder / "history.csv"))
     return {};
@@ -225,8 +225,11 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
     return {};
   Plot energies{fs::absolute(folder / "energies.png").string(), energy_charts(title + ": energies", history)};
   Plot probes{fs::absolute(folder / "probes.png").string(), {}};
-  for (const std::string& column : probe_columns(history))
-    probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
+  for (const std::string& column : probe_columns(history)) {
+    const std::vector<double>& values = history.column(column);
+    if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
+      probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
+  }
   std::vector<Plot> plots;
   for (Plot& plot : std::vector<Plot>{energies, probes})
     if (!plot.charts.empty())
