@@ -59,7 +59,7 @@ void store_case(const Case& the_case, const std::vector<std::string>& overrides,
 }
 
 void remove_solution(const fs::path& folder) {
-  for (const char* name : {"summary.json", "history.csv", "fields.pvd", "report.md"})
+  for (const char* name : {"summary.json", "history.csv", "fields.pvd", "report.md", "report.html"})
     fs::remove(folder / name);
   fs::remove_all(folder / "fields");
   std::vector<fs::path> pictures;

@@ -127,41 +127,41 @@ Plot histogram_plot(const fs::path& folder, const ParticleCloud& cloud, const Ev
   return plot;
 }
 
-std::string evenness_tables(const Evenness& even) {
-  std::string text = "| | smallest | 1 % | 10 % | median | 90 % | 99 % | largest | mean | deviation |\n"
-                     "|:--|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
-  const std::pair<const char*, const std::vector<double>*> rows[] = {
+std::vector<Table> evenness_tables(const Evenness& even) {
+  std::vector<Table> tables{
+      {{"", "smallest", "1 %", "10 %", "median", "90 %", "99 %", "largest", "mean", "deviation"}, {}}};
+  const std::pair<const char*, const std::vector<double>*> kinds[] = {
       {"Distance to the nearest / h", &even.distance}, {"Subvolume / mean", &even.volume}};
-  for (const auto& [name, values] : rows) {
+  for (const auto& [name, values] : kinds) {
     if (values->empty())
       continue;
     std::vector<double> sorted = *values;
     std::sort(sorted.begin(), sorted.end());
-    text += fmt::format("| {} |", name);
+    std::vector<std::string> row{name};
     for (const double part : {0.0, 0.01, 0.1, 0.5, 0.9, 0.99, 1.0})
-      text += fmt::format(
-          " {:.3f} |",
-          sorted[static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))]);
+      row.push_back(fmt::format(
+          "{:.3f}",
+          sorted[static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))]));
     const double mean = mean_of(sorted);
     double square = 0;
     for (const double value : sorted)
       square += (value - mean) * (value - mean);
-    text += fmt::format(" {:.3f} | {:.3f} |\n", mean, std::sqrt(square / static_cast<double>(sorted.size())));
-  }
-  for (const auto& [name, values] : rows) {
-    if (values->empty())
-      continue;
+    row.push_back(fmt::format("{:.3f}", mean));
+    row.push_back(fmt::format("{:.3f}", std::sqrt(square / static_cast<double>(sorted.size()))));
+    tables.front().rows.push_back(row);
+
+    Table& shares = tables.emplace_back(Table{{name, "Particles", "Share"}, {}, true});
     const Histogram classes = histogram(*values);
-    text += fmt::format("\n| {} | Particles | Share |\n|--:|--:|--:|\n", name);
     for (std::size_t k = 0; k < classes.counts.size(); ++k)
       if (classes.counts[k] > 0)
-        text +=
-            fmt::format("| {:.4g} to {:.4g} | {} | {:.2f} % |\n",
-                        std::max(0.0, (static_cast<double>(k) - 0.5) * classes.width),
-                        (static_cast<double>(k) + 0.5) * classes.width, classes.counts[k],
-                        100.0 * static_cast<double>(classes.counts[k]) / static_cast<double>(values->size()));
+        shares.rows.push_back(
+            {fmt::format("{:.4g} to {:.4g}", std::max(0.0, (static_cast<double>(k) - 0.5) * classes.width),
+                         (static_cast<double>(k) + 0.5) * classes.width),
+             std::to_string(classes.counts[k]),
+             fmt::format("{:.2f} %", 100.0 * static_cast<double>(classes.counts[k]) /
+                                         static_cast<double>(values->size()))});
   }
-  return text;
+  return tables;
 }
 
 std::vector<fs::path> draw_cloud(const fs::path& folder, Progress& progress, const CellMesh* cells) try {

@@ -1,10 +1,11 @@
 /// How a cloud of particles is presented before any run: cloud.png and cloud_histograms.png as jobs for the
-/// renderer.
+/// renderer, and tables.
 #pragma once
 
 #include "core/cell_mesh.hpp"
 #include "core/particle_cloud.hpp"
 #include "core/temporary_folder.hpp"
+#include "postprocess/document.hpp"
 #include "postprocess/render_job.hpp"
 
 #include <cstdint>
@@ -54,7 +55,7 @@ Evenness evenness(const ParticleCloud& cloud);
 Plot histogram_plot(const std::filesystem::path& folder, const ParticleCloud& cloud,
                     const Evenness& evenness);
 
-/// Smallest, some quantiles and largest of both, and the histograms, as tables of a Markdown text.
-std::string evenness_tables(const Evenness& evenness);
+/// Smallest, some quantiles and largest of both in one table, then the histogram of each.
+std::vector<Table> evenness_tables(const Evenness& evenness);
 
 } // namespace tessera::post

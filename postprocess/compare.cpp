@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/history.hpp"
+#include "postprocess/document.hpp"
 #include "postprocess/history_charts.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"
@@ -115,31 +116,20 @@ std::string json_text(const std::vector<std::string>& names, const std::vector<f
   return root.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
-std::string markdown_cell(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
-}
-
-std::string markdown_text(const Comparison& comparison) {
-  std::string text = "# Comparison\n\n| |";
-  for (const std::string& name : comparison.runs)
-    text += fmt::format(" {} |", markdown_cell(name));
-  text += "\n|:--|";
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i)
-    text += "--:|";
-  text += "\n";
+Document document_of(const Comparison& comparison) {
+  Document document{"Comparison", {}};
+  Table table{{""}, {}};
+  table.header.insert(table.header.end(), comparison.runs.begin(), comparison.runs.end());
   for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
-    text += fmt::format("| {} |", markdown_cell(comparison.rows[r]));
-    for (const std::string& value : comparison.values[r])
-      text += fmt::format(" {} |", markdown_cell(value));
-    text += "\n";
+    table.rows.push_back({comparison.rows[r]});
+    table.rows.back().insert(table.rows.back().end(), comparison.values[r].begin(),
+                             comparison.values[r].end());
   }
+  document.blocks.push_back(std::move(table));
   for (const fs::path& file : comparison.files)
     if (file.extension() == ".png")
-      text += fmt::format("\n![{}]({})\n", file.stem().string(), file.filename().string());
-  return text;
+      document.blocks.push_back(Image{file.filename()});
+  return document;
 }
 
 /// The probes all runs share, over each other.
@@ -222,7 +212,9 @@ Comparison compare(const std::vector<fs::path>& folders, const fs::path& output,
   };
   keep("compare.csv", csv_text(comparison.runs, rows));
   keep("compare.json", json_text(comparison.runs, folders, rows));
-  keep("compare.md", markdown_text(comparison));
+  const Document document = document_of(comparison);
+  keep("compare.md", markdown(document));
+  keep("compare.html", html(document, output));
   return comparison;
 }
 

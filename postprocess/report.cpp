@@ -3,9 +3,11 @@
 #include "core/error.hpp"
 #include "core/temporary_folder.hpp"
 #include "io/atomic_file.hpp"
+#include "io/bytes.hpp"
 #include "io/cloud_file.hpp"
 #include "io/history.hpp"
 #include "postprocess/cloud_picture.hpp"
+#include "postprocess/document.hpp"
 #include "postprocess/history_charts.hpp"
 #include "postprocess/picture.hpp"
 #include "postprocess/quantity.hpp"
@@ -16,33 +18,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace tessera::post {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
-}
-
-std::string figure_table(const std::vector<Figure>& figures) {
-  std::string text = "| | |\n|:--|--:|\n";
+Table figure_table(const std::vector<Figure>& figures) {
+  Table table{{"", ""}, {}};
   for (const Figure& figure : figures) {
-    if (figure.key == "title")
-      continue;
-    const Unit unit = figure.key == "wall_seconds"
+    const Unit unit = figure.unit == "s" && figure.key.ends_with("_seconds")
                           ? Unit{1, "s"}
                           : readable_unit(figure.unit, std::abs(figure.value.value_or(0)));
-    text += fmt::format("| {} | {}{}{} |\n", cell(figure.label), cell(shown(figure, unit.factor)),
-                        unit.name.empty() ? "" : " ", unit.name);
+    const std::string value = shown(figure, unit.factor);
+    table.rows.push_back({figure.label, unit.name.empty() ? value : fmt::format("{} {}", value, unit.name)});
   }
-  return text;
+  return table;
 }
 
 /// The pictures of the folder: fields first, then the curves, the cloud last.
@@ -60,16 +56,6 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
     return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
   });
   return pictures;
-}
-
-/// A relative link that survives spaces and brackets in the name.
-std::string link(const fs::path& picture) {
-  std::string out;
-  for (const char c : picture.string())
-    out += std::string_view(" ()<>%").find(c) == std::string_view::npos
-               ? std::string(1, c)
-               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return out;
 }
 
 std::string title_of(const fs::path& folder, const std::vector<Figure>& summary, const std::string& asked) {
@@ -100,7 +86,38 @@ std::optional<StoredCloud> stored_cloud(const fs::path& folder, Progress& progre
   }
 }
 
-std::string cloud_text(const fs::path& folder, const std::optional<StoredCloud>& stored) {
+/// The figures of a run under the heads a reader looks for.
+void add_run(Document& report, const std::vector<Figure>& summary) {
+  const std::pair<const char*, std::vector<std::string_view>> heads[] = {
+      {"What came out", {"max.", "min.", "extent.", "probes."}},
+      {"Errors against the closed form", {"error."}},
+      {"Energies", {"energy."}},
+      {"Momenta", {"momentum."}},
+      {"Cost",
+       {"wall_seconds", "cpu_seconds", "setup_seconds", "us_per_particle_step", "threads",
+        "bytes_per_particle", "memory_peak_bytes"}}};
+  std::vector<Figure> rest = summary;
+  std::erase_if(rest, [](const Figure& figure) { return figure.key == "title"; });
+  std::vector<std::pair<const char*, std::vector<Figure>>> groups;
+  for (const auto& [head, keys] : heads) {
+    const auto belongs = [&](const Figure& figure) {
+      return std::any_of(keys.begin(), keys.end(),
+                         [&](std::string_view key) { return figure.key.starts_with(key); });
+    };
+    auto& group = groups.emplace_back(head, std::vector<Figure>{}).second;
+    std::copy_if(rest.begin(), rest.end(), std::back_inserter(group), belongs);
+    std::erase_if(rest, belongs);
+  }
+  report.blocks.push_back(Heading{2, "The run"});
+  report.blocks.push_back(figure_table(rest));
+  for (const auto& [head, figures] : groups)
+    if (!figures.empty()) {
+      report.blocks.push_back(Heading{3, head});
+      report.blocks.push_back(figure_table(figures));
+    }
+}
+
+void add_cloud(Document& report, const fs::path& folder, const std::optional<StoredCloud>& stored) {
   std::vector<Figure> figures;
   std::vector<Figure> sets;
   if (stored) {
@@ -114,63 +131,85 @@ std::string cloud_text(const fs::path& folder, const std::optional<StoredCloud>&
   for (const Figure& figure : quality_figures(folder))
     (figure.key.starts_with("sets.") ? sets : figures).push_back(figure);
   if (figures.empty())
-    return "";
-  std::string text = "## The particles\n\n" + figure_table(figures) + "\n";
+    return;
+  report.blocks.push_back(Heading{2, "The particles"});
+  report.blocks.push_back(figure_table(figures));
   if (stored && stored->cloud.dimension == 2)
-    text += "The body is plane: volumes are areas, for a thickness of one metre.\n\n";
-  if (!sets.empty())
-    text += "### Sets\n\n" + figure_table(sets) + "\n";
-  if (stored) {
-    text += "### How even they are\n\n";
-    if (fs::exists(folder / "cloud_histograms.png"))
-      text += "![cloud_histograms](cloud_histograms.png)\n\n";
-    text += evenness_tables(stored->even) + "\n";
+    report.blocks.push_back(Paragraph{"The body is plane: volumes are areas, for a thickness of one metre."});
+  if (!sets.empty()) {
+    report.blocks.push_back(Heading{3, "Sets"});
+    report.blocks.push_back(figure_table(sets));
   }
-  return text;
+  if (stored) {
+    report.blocks.push_back(Heading{3, "How even they are"});
+    if (fs::exists(folder / "cloud_histograms.png"))
+      report.blocks.push_back(Image{"cloud_histograms.png"});
+    for (Table& table : evenness_tables(stored->even))
+      report.blocks.push_back(std::move(table));
+  }
 }
 
-std::string paraview_text(const fs::path& folder, const std::vector<Figure>& summary) {
+void add_paraview(Document& report, const fs::path& folder, const std::vector<Figure>& summary) {
   if (!fs::exists(folder / "fields.pvd"))
-    return "";
+    return;
   const Figure* spacing = find_figure(summary, "spacing");
   const std::string radius =
       spacing && spacing->value ? fmt::format(", *Gaussian Radius* {:.3g}", 0.5 * *spacing->value) : "";
-  return fmt::format(
-      "## In ParaView\n\n"
-      "    paraview fields.pvd\n\n"
+  report.blocks.push_back(Heading{2, "In ParaView"});
+  report.blocks.push_back(Verbatim{"paraview fields.pvd"});
+  report.blocks.push_back(Paragraph{fmt::format(
       "*Apply*, then *Representation*: Point Gaussian{}, *Shader Preset*: Sphere, and colour by a field. "
       "The points lie where the particles are at each time, so no *Warp* is needed; points minus "
-      "`Displacement` are the reference positions. All values are in SI units.\n\n",
-      radius);
+      "`Displacement` are the reference positions. All values are in SI units.",
+      radius)});
 }
 
-std::string report_text(const fs::path& folder, const std::string& title, const std::vector<Figure>& summary,
-                        const std::optional<StoredCloud>& cloud) {
-  std::string text = fmt::format("# {}\n\n", title);
-  if (summary.empty() && fs::exists(folder / "history.csv"))
-    text += "The run did not reach its end: what follows is drawn from the frames it stored.\n\n";
-  for (const fs::path& picture : pictures_in(folder))
-    text += fmt::format("![{}]({})\n\n", picture.stem().string(), link(picture));
-  if (!summary.empty())
-    text += "## The run\n\n" + figure_table(summary) + "\n";
-  text += cloud_text(folder, cloud);
-  text += paraview_text(folder, summary);
-  text += "## Files\n\n";
-  const std::pair<const char*, const char*> files[] = {
+/// The case as it was run, with what tells it from any other.
+void add_case(Document& report, const fs::path& folder) {
+  const fs::path file = folder / "case.toml";
+  if (!fs::exists(file))
+    return;
+  const std::string text = io::read_bytes(file);
+  report.blocks.push_back(Heading{2, "The case"});
+  report.blocks.push_back(Paragraph{fmt::format("`case.toml`, SHA-256 `{}`:", io::sha256(text))});
+  report.blocks.push_back(Verbatim{text});
+}
+
+void add_files(Document& report, const fs::path& folder) {
+  const std::pair<const char*, const char*> known[] = {
       {"case.toml", "the case as it was run"},
       {"summary.json", "the figures above, SI units"},
       {"history.csv", "energies, momenta and probes against time"},
       {"fields.pvd", "the frames, for ParaView"},
-      {"cloud.vtp", "the particles before the run, for ParaView and for `--cloud`"},
+      {"cloud.vtp", "the particles before the run, for ParaView and for --cloud"},
       {"cells.vtu", "their Voronoi cells"},
       {"quality.json", "the figures of the particles"}};
-  for (const auto& [name, meaning] : files)
+  FileList list;
+  for (const auto& [name, meaning] : known)
     if (fs::exists(folder / name))
-      text += fmt::format("- [{}]({}): {}\n", name, name, meaning);
-  return text;
+      list.files.emplace_back(name, meaning);
+  report.blocks.push_back(Heading{2, "Files"});
+  report.blocks.push_back(std::move(list));
 }
 
-/// energies.png and probes.png from history.csv, where there is one.
+Document report_of(const fs::path& folder, const std::string& title, const std::vector<Figure>& summary,
+                   const std::optional<StoredCloud>& cloud) {
+  Document report{title, {}};
+  if (summary.empty() && fs::exists(folder / "history.csv"))
+    report.blocks.push_back(
+        Paragraph{"The run did not reach its end: what follows is drawn from the frames it stored."});
+  for (const fs::path& picture : pictures_in(folder))
+    report.blocks.push_back(Image{picture});
+  if (!summary.empty())
+    add_run(report, summary);
+  add_cloud(report, folder, cloud);
+  add_paraview(report, folder, summary);
+  add_case(report, folder);
+  add_files(report, folder);
+  return report;
+}
+
+/// energies.png and probes.png (of probes that are not zero throughout) from history.csv, where there is one.
 std::vector<Plot> history_plots(const fs::path& folder, const std::string& title, Progress& progress) {
   if (!fs::exists(folder / "history.csv"))
     return {};
@@ -186,8 +225,11 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
     return {};
   Plot energies{fs::absolute(folder / "energies.png").string(), energy_charts(title + ": energies", history)};
   Plot probes{fs::absolute(folder / "probes.png").string(), {}};
-  for (const std::string& column : probe_columns(history))
-    probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
+  for (const std::string& column : probe_columns(history)) {
+    const std::vector<double>& values = history.column(column);
+    if (std::any_of(values.begin(), values.end(), [](double value) { return value != 0; }))
+      probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
+  }
   std::vector<Plot> plots;
   for (Plot& plot : std::vector<Plot>{energies, probes})
     if (!plot.charts.empty())
@@ -195,7 +237,7 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
   return plots;
 }
 
-/// Draws `drawings` and all plots of the folder in one child process and writes report.md.
+/// Draws `drawings` and all plots of the folder in one child process and writes both reports.
 std::vector<fs::path> write_all(const fs::path& folder, const std::string& asked_title,
                                 std::vector<Drawing> drawings, const std::optional<StoredCloud>& cloud,
                                 Progress& progress) {
@@ -206,8 +248,10 @@ std::vector<fs::path> write_all(const fs::path& folder, const std::string& asked
   if (cloud)
     job.plots.push_back(histogram_plot(folder, cloud->cloud, cloud->even));
   std::vector<fs::path> files = render(job, progress);
-  io::write_text(folder / "report.md", report_text(folder, title, summary, cloud));
-  files.push_back(folder / "report.md");
+  const Document report = report_of(folder, title, summary, cloud);
+  io::write_text(folder / "report.md", markdown(report));
+  io::write_text(folder / "report.html", html(report, folder));
+  files.insert(files.end(), {folder / "report.md", folder / "report.html"});
   return files;
 }
 

@@ -1,4 +1,5 @@
-/// report.md and the plots of one run, or of a cloud that was only prepared: what a person reads first.
+/// report.md, report.html and the plots of one run, or of a cloud that was only prepared: what a person reads
+/// first.
 #pragma once
 
 #include "core/cell_mesh.hpp"
@@ -11,8 +12,9 @@
 namespace tessera::post {
 
 /// Energies and probes against time (energies.png, probes.png), how even the cloud is (cloud_histograms.png),
-/// and report.md with the figures of summary.json and quality.json and every picture in the folder. `title`
-/// heads it where summary.json has none. Returns the files written.
+/// and the reports with the figures of summary.json and quality.json, every picture in the folder and the
+/// case; report.html holds all it shows. `title` heads them where summary.json has none. Returns the files
+/// written.
 std::vector<std::filesystem::path> write_report(const std::filesystem::path& folder, Progress& progress,
                                                 const std::string& title = "");
 

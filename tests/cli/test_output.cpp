@@ -75,7 +75,7 @@ TEST(Output, RunWritesWhatItPromises) {
   EXPECT_NE(result.err.find("xvfb"), std::string::npos) << "missing pictures are explained";
   EXPECT_NE(result.out.find("225 particles"), std::string::npos) << result.out;
   for (const char* name : {"case.toml", "cloud.vtp", "cells.vtu", "quality.json", "history.csv", "fields.pvd",
-                           "summary.json", "report.md"})
+                           "summary.json", "report.md", "report.html"})
     EXPECT_TRUE(fs::exists(place / "out" / name)) << name;
 
   const Json summary = Json::parse(place.read("out/summary.json"));

@@ -107,9 +107,11 @@ TEST(Evenness, OfALatticeAndOfOneParticle) {
     EXPECT_NEAR(distance, 1, 1e-12);
   EXPECT_NEAR(even.volume[0], 0.8, 1e-12);
   EXPECT_NEAR(even.volume[1], 1.2, 1e-12);
-  const std::string tables = evenness_tables(even);
-  EXPECT_NE(tables.find("| 0.99 to 1.01 | 32 | 100.00 % |"), std::string::npos) << tables;
-  EXPECT_NE(tables.find("| Subvolume / mean | 0.800 |"), std::string::npos) << tables;
+  const std::vector<Table> tables = evenness_tables(even);
+  ASSERT_EQ(tables.size(), 3U);
+  EXPECT_EQ(tables[0].rows[1][0], "Subvolume / mean");
+  EXPECT_EQ(tables[0].rows[1][1], "0.800");
+  EXPECT_EQ(tables[1].rows, (std::vector<std::vector<std::string>>{{"0.99 to 1.01", "32", "100.00 %"}}));
   ParticleCloud one = cubes.cloud;
   for (auto* array : {&one.X, &one.A, &one.centroid})
     array->resize(1);
@@ -169,7 +171,7 @@ TEST(CloudPicture, APlaneCloudIsOnePanelOfPolygons) {
   const auto files = write_cloud_report(folder.path(), notes, "Plate", &cells);
   EXPECT_EQ(out.str(), "");
   EXPECT_EQ(files, (std::vector<std::filesystem::path>{folder / "cloud.png", folder / "cloud_histograms.png",
-                                                       folder / "report.md"}));
+                                                       folder / "report.md", folder / "report.html"}));
   const Seen seen(folder / "cloud.png");
   EXPECT_GT(seen.width, seen.height) << "16 x 8 mm, seen from above, once";
   const std::string text = content(folder / "report.md");
@@ -193,7 +195,7 @@ TEST(CloudPicture, DamagedFilesAreNoted) {
   EXPECT_TRUE(draw_cloud(folder.path(), notes).empty());
   EXPECT_NE(out.str().find("no cloud.png"), std::string::npos) << out.str();
   test::store(folder / "quality.json", R"({"particles": 18})");
-  EXPECT_EQ(write_cloud_report(folder.path(), notes).size(), 1u) << "the figures remain";
+  EXPECT_EQ(write_cloud_report(folder.path(), notes).size(), 2u) << "the figures remain";
 }
 
 } // namespace

@@ -42,7 +42,7 @@ TEST(Compare, TheSameNumbersStandBesideEachOther) {
   EXPECT_EQ(row(comparison, "Size along z (mm)"), (Values{"21.5", "21.5"}));
   EXPECT_EQ(row(comparison, "Velocity error, L2 relative"), (Values{"-", "0.0405"}));
   EXPECT_TRUE(row(comparison, "Neighbours, mean").empty()) << "no run has it";
-  for (const char* name : {"compare.csv", "compare.json", "compare.md", "compare_probes.png",
+  for (const char* name : {"compare.csv", "compare.json", "compare.md", "compare.html", "compare_probes.png",
                            "compare_plastic_strain.png", "compare_von_mises.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/both" / name)) << name;
     EXPECT_EQ(std::count(comparison.files.begin(), comparison.files.end(), folder / "out/both" / name), 1)
@@ -98,8 +98,8 @@ TEST(Report, TellsTheFiguresAndShowsThePictures) {
   test::store_run(folder.path(), 6.98e-3);
   test::store(folder / "my picture.png", "not looked into");
   const auto files = write_report(folder.path(), Progress::silent());
-  EXPECT_EQ(files.size(), 4u);
-  for (const char* name : {"energies.png", "probes.png", "cloud_histograms.png", "report.md"})
+  EXPECT_EQ(files.size(), 5u);
+  for (const char* name : {"energies.png", "probes.png", "cloud_histograms.png", "report.md", "report.html"})
     EXPECT_EQ(std::count(files.begin(), files.end(), folder / name), 1) << name;
   const std::string text = content(folder / "report.md");
   EXPECT_TRUE(contains(text, "# Taylor bar\n"));
@@ -110,6 +110,7 @@ TEST(Report, TellsTheFiguresAndShowsThePictures) {
   EXPECT_TRUE(contains(text, "![energies](energies.png)")) << text;
   EXPECT_TRUE(contains(text, "paraview fields.pvd")) << text;
   EXPECT_TRUE(contains(text, "*Gaussian Radius* 0.00032")) << text;
+  EXPECT_TRUE(contains(text, "### Energies")) << text;
 }
 
 TEST(Report, AnUnfinishedRunHasOneToo) {
@@ -118,7 +119,7 @@ TEST(Report, AnUnfinishedRunHasOneToo) {
   std::filesystem::remove(folder / "summary.json");
   test::store(folder / "history.csv", content(folder / "history.csv") + "0.1,2");
   const auto files = write_report(folder.path(), Progress::silent());
-  EXPECT_EQ(files.size(), 4u);
+  EXPECT_EQ(files.size(), 5u);
   EXPECT_TRUE(contains(content(folder / "report.md"), "did not reach its end"));
 }
 
