@@ -105,7 +105,10 @@ std::int64_t solve(FitResidual<D>& K, SplineLevels<D>& preconditioner, const Lin
     const double beta = iterations == 0 ? 0 : r_z / r_z_before;
     for_each(n, [&](std::int64_t i) { p.col(i) = z.col(i) + beta * p.col(i); });
     K.multiply(p, Kp);
-    const double alpha = r_z / dot(p, Kp);
+    const double p_Kp = dot(p, Kp);
+    if (!(p_Kp > 0)) // nothing but rounding is left
+      break;
+    const double alpha = r_z / p_Kp;
     for_each(n, [&](std::int64_t i) {
       lambda.col(i) += alpha * p.col(i);
       r.col(i) -= alpha * Kp.col(i);
