@@ -3,11 +3,12 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "solver/operators/fit_residual.hpp"
-#include "solver/operators/two_level.hpp"
+#include "solver/operators/spline_levels.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace tessera::solver {
 
@@ -26,43 +27,94 @@ std::vector<double> pair_weights(std::span<const Vec3> X, std::span<const double
 
 namespace {
 
-/// A_b - S_b: what the operators as they are lack, component by component.
+/// A_b - S_b: what the operators as they are lack.
 template <int D>
-Eigen::VectorXd imbalance(const Gradient<D>& gradient, std::span<const double> V, std::span<const Vec3> A,
-                          const Neighbours& neighbours) {
-  Eigen::VectorXd lack(D * neighbours.size());
+Field<D> imbalance(const Gradient<D>& gradient, std::span<const double> V, std::span<const Vec3> A,
+                   const Neighbours& neighbours) {
+  Field<D> lack = Field<D>::Zero(Field<D>::RowsAtCompileTime, neighbours.size());
   for_each(neighbours.size(), [&](std::int64_t b) {
     Vec<D> force = gradient.s[b]; // of the unit stress, over V_b
     for (std::int64_t e = neighbours.row[b]; e < neighbours.row[b + 1]; ++e)
       force += gradient.t[e];
-    lack.segment<D>(D * b) = A[b].head<D>() + V[b] * force;
+    lack.col(b).template head<D>() = A[b].head<D>() + V[b] * force;
   });
   return lack;
 }
 
-/// Takes the linear fields out of a field's components, which no residual of a fit has: balanced areas leave
-/// rounding only.
+/// The linear fields, which no residual of a fit has.
 template <int D>
-void without_linear_fields(std::span<const Vec3> X, Eigen::VectorXd& field) {
+class LinearFields {
+ public:
+  explicit LinearFields(std::span<const Vec3> X)
+      : X_(X), n_(static_cast<std::int64_t>(X.size())),
+        centre_(sum(n_, Vec3(Vec3::Zero()), [&](std::int64_t a) -> Vec3 { return X[a]; }) / double(n_)),
+        size_(max_of(n_, 0.0, [&](std::int64_t a) { return (X[a] - centre_).norm(); })) {
+    inverse_gram_ = sum(n_, Gram(Gram::Zero()), [&](std::int64_t a) -> Gram {
+                      return functions(a) * functions(a).transpose();
+                    }).inverse();
+  }
+
+  /// Takes them out of a field: balanced areas leave rounding only, but that would grow.
+  void remove_from(Field<D>& field) const {
+    using Moments = Eigen::Matrix<double, Field<D>::RowsAtCompileTime, D + 1>;
+    const Moments moments = sum(n_, Moments(Moments::Zero()), [&](std::int64_t a) -> Moments {
+      return field.col(a) * functions(a).transpose();
+    });
+    const Moments share = moments * inverse_gram_;
+    for_each(n_, [&](std::int64_t a) { field.col(a) -= share * functions(a); });
+  }
+
+ private:
   using Functions = Eigen::Matrix<double, D + 1, 1>;
-  using Moments = Eigen::Matrix<double, D + 1, 2 * D + 1>; // of the functions | of the field with them
-  const auto n = static_cast<std::int64_t>(X.size());
-  const Vec3 centre = sum(n, Vec3(Vec3::Zero()), [&](std::int64_t a) -> Vec3 { return X[a]; }) / double(n);
-  const double size = max_of(n, 0.0, [&](std::int64_t a) { return (X[a] - centre).norm(); });
-  const auto functions = [&](std::int64_t a) {
+  using Gram = Eigen::Matrix<double, D + 1, D + 1>;
+
+  Functions functions(std::int64_t a) const {
     Functions f;
-    f << 1, (X[a] - centre).template head<D>() / size;
+    f << 1, (X_[a] - centre_).template head<D>() / size_;
     return f;
+  }
+
+  std::span<const Vec3> X_;
+  std::int64_t n_;
+  Vec3 centre_;
+  double size_;
+  Gram inverse_gram_;
+};
+
+/// Preconditioned conjugate gradients for K lambda = r, with lambda from zero, until no component of what is
+/// left in r is larger than `enough`. Returns the iterations.
+template <int D>
+std::int64_t solve(FitResidual<D>& K, SplineLevels<D>& preconditioner, const LinearFields<D>& linear,
+                   double enough, Field<D>& r, Field<D>& lambda) {
+  constexpr std::int64_t most = 1000;
+  const Eigen::Index n = r.cols();
+  const auto dot = [&](const Field<D>& a, const Field<D>& b) {
+    return sum(n, 0.0, [&](std::int64_t i) { return a.col(i).dot(b.col(i)); });
   };
-  const Moments moments = sum(n, Moments(Moments::Zero()), [&](std::int64_t a) -> Moments {
-    const Functions f = functions(a);
-    Moments m;
-    m << f * f.transpose(), f * field.segment<D>(D * a).transpose();
-    return m;
-  });
-  const Eigen::Matrix<double, D + 1, D> share =
-      moments.template leftCols<D + 1>().ldlt().solve(moments.template rightCols<D>());
-  for_each(n, [&](std::int64_t a) { field.segment<D>(D * a) -= share.transpose() * functions(a); });
+  const auto largest = [&] {
+    return max_of(n, 0.0, [&](std::int64_t i) { return r.col(i).cwiseAbs().maxCoeff(); });
+  };
+  Field<D> z(r.rows(), n), p = Field<D>::Zero(r.rows(), n), Kp(r.rows(), n);
+  lambda.setZero();
+  double r_z = 1;
+  std::int64_t iterations = 0;
+  for (; iterations < most && largest() > enough; ++iterations) {
+    linear.remove_from(r);
+    preconditioner.apply(r, z);
+    const double r_z_before = std::exchange(r_z, dot(r, z));
+    const double beta = iterations == 0 ? 0 : r_z / r_z_before;
+    for_each(n, [&](std::int64_t i) { p.col(i) = z.col(i) + beta * p.col(i); });
+    K.multiply(p, Kp);
+    const double p_Kp = dot(p, Kp);
+    if (!(p_Kp > 0)) // nothing but rounding is left
+      break;
+    const double alpha = r_z / p_Kp;
+    for_each(n, [&](std::int64_t i) {
+      lambda.col(i) += alpha * p.col(i);
+      r.col(i) -= alpha * Kp.col(i);
+    });
+  }
+  return iterations;
 }
 
 template <int D>
@@ -90,11 +142,9 @@ std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3
                                      std::span<const double> V, std::span<const Vec3> A,
                                      const Neighbours& neighbours, const Kernel<D>& kernel) {
   require_balanced<D>(X, V, A);
-  const FitResidual<D> K(X, neighbours, pair_weights<D>(X, V, neighbours, kernel));
-  Eigen::ConjugateGradient<FitResidual<D>, Eigen::Lower | Eigen::Upper, TwoLevel<D>> iteration;
-  iteration.setTolerance(1e-9);
-  iteration.setMaxIterations(5000);
-  iteration.compute(K);
+  FitResidual<D> K(X, neighbours, pair_weights<D>(X, V, neighbours, kernel));
+  SplineLevels<D> preconditioner(K);
+  const LinearFields<D> linear(X);
 
   // Slender bodies have large lambda of which little is a residual: what rounding leaves is balanced again.
   const double surface = max_of(neighbours.size(), 0.0, [&](std::int64_t a) { return A[a].norm(); });
@@ -102,16 +152,14 @@ std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3
   constexpr int rounds = 6;
   std::int64_t iterations = 0;
   double left = 0;
+  Field<D> lambda(Field<D>::RowsAtCompileTime, neighbours.size());
   for (int round = 0; round < rounds; ++round) {
-    Eigen::VectorXd lack = imbalance<D>(gradient, V, A, neighbours);
+    Field<D> lack = imbalance<D>(gradient, V, A, neighbours);
     left = lack.cwiseAbs().maxCoeff() / surface;
     if (left < enough)
       break;
-    without_linear_fields<D>(X, lack);
-    const Eigen::VectorXd lambda = iteration.solve(lack);
-    iterations += iteration.iterations();
-    K.fit(lambda.data());
-    K.correct(gradient, V, lambda.data());
+    iterations += solve<D>(K, preconditioner, linear, enough / 3 * surface, lack, lambda);
+    K.correct(gradient, V, lambda);
   }
   require(left < good,
           fmt::format("the operators of the scheme \"consistent\" did not converge: {:.2g} of the largest "
