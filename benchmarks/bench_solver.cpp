@@ -191,7 +191,7 @@ BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMill
 BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(correction)
     ->ArgsProduct({{10000, 30000, 100000}, {0, 1}})
-    ->Iterations(5)
+    ->Iterations(2)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
 BENCHMARK_CAPTURE(scheme_step, thesis_heun, "thesis", "heun")
