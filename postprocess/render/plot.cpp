@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -109,11 +110,21 @@ vtkSmartPointer<vtkTable> table_of(const Curve& curve, const Chart& chart) {
   return table;
 }
 
+Colour colour_of(const Curve& curve, int index) {
+  return curve_colour(curve.colour == Curve::by_place ? index : curve.colour);
+}
+
+int marker_of(const Curve& curve) {
+  constexpr std::array styles{vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND,
+                              vtkPlotPoints::PLUS, vtkPlotPoints::CROSS};
+  return styles[static_cast<std::size_t>(curve.marker) % styles.size()];
+}
+
 void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int index) {
   const auto table = table_of(curve, spec);
   if (table->GetNumberOfRows() == 0)
     return;
-  const Colour colour = curve_colour(index);
+  const Colour colour = colour_of(curve, index);
   vtkPlot* plot = chart.AddPlot(curve.bars ? vtkChart::BAR : curve.dots ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
   plot->SetColor(colour[0], colour[1], colour[2], 255);
@@ -126,7 +137,7 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
   plot->SetWidth(curve.dots ? 11.0f : 3.5f);
   plot->GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot); points && curve.dots)
-    points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+    points->SetMarkerStyle(marker_of(curve));
 }
 
 /// Names of the curves to the right of the chart, where they hide nothing.
@@ -137,7 +148,7 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) 
   double y = top - 110;
   for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= step) {
     const Curve& curve = chart.curves[c];
-    const Colour colour = curve_colour(static_cast<int>(c));
+    const Colour colour = colour_of(curve, static_cast<int>(c));
     if (curve.dots)
       canvas.rectangle({left + 20, y - 7}, {left + 34, y + 7}, colour);
     else if (curve.dashed)
