@@ -11,6 +11,8 @@ namespace tessera::app {
 namespace {
 
 std::string toml_text(const toml::node& node) {
+  if (const toml::value<double>* number = node.as_floating_point())
+    return fmt::format("{}", number->get()); // in as few digits as tell it apart
   std::ostringstream out;
   out << toml::toml_formatter(node);
   return out.str();

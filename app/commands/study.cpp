@@ -73,7 +73,7 @@ void study(const Options& options) {
   io::write_text(folder / "study.json", results_json(study, results));
   if (interrupted()) {
     const std::size_t left = runs_to_do(plan, store).size();
-    throw RunError("interrupted", fmt::format("{} runs of {} are left", left, plan.runs.size()),
+    throw RunError("interrupted", fmt::format("{} of {} runs left to do", left, plan.runs.size()),
                    "run the same command again to go on");
   }
   const bool picture = draw_pareto(study, results, folder, console.progress());
@@ -84,9 +84,9 @@ void study(const Options& options) {
   if (measured == 0)
     throw RunError(fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
                    folder.string(), "see report.md there");
-  console.result(fmt::format("{}: {} runs measured, {} without an error\n{}results in {}: study.csv, study.json, "
+  console.result(fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: study.csv, study.json, "
                              "report.md{}\n",
-                             study.title, measured, results.rows.size() - static_cast<std::size_t>(measured),
+                             study.title, measured, measured == 1 ? "" : "s", results.rows.size() - static_cast<std::size_t>(measured),
                              recommendations_text(study, results), folder.string(),
                              picture ? ", pareto.png" : ""),
                  results_json(study, results));

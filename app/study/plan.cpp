@@ -60,7 +60,8 @@ double work_of(const Case& the_case) {
   const preprocess::ParticleRequest& particles = the_case.particles;
   const double n = particles.count > 0 ? static_cast<double>(particles.count) : std::pow(particles.spacing, -d);
   constexpr double heun = 5; // two evaluations a step, and shorter steps
-  return std::pow(n, 1 + 1 / d) * (solver::chosen_integrator(the_case.scene) == "heun" ? heun : 1);
+  return the_case.scene.end_time * std::pow(n, 1 + 1 / d) *
+         (solver::chosen_integrator(the_case.scene) == "heun" ? heun : 1);
 }
 
 void require_closed_form(const Case& the_case, const std::string& field) {

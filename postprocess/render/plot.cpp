@@ -23,6 +23,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 namespace tessera::post {
 namespace {
@@ -140,6 +142,36 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
     points->SetMarkerStyle(marker_of(curve));
 }
 
+/// As the chart draws it.
+void draw_marker(Canvas& canvas, Pixel at, int style, Colour colour) {
+  constexpr double reach = 9;
+  const auto turned = [&](int corners, double first) {
+    std::vector<Pixel> ring;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = first + 2 * std::numbers::pi * i / corners;
+      ring.push_back({at.x + reach * std::cos(angle), at.y + reach * std::sin(angle)});
+    }
+    return ring;
+  };
+  const auto stroke = [&](double x, double y) {
+    canvas.line({at.x - x, at.y - y}, {at.x + x, at.y + y}, colour, 4);
+  };
+  switch (style) {
+  case vtkPlotPoints::SQUARE:
+    return canvas.polygon(turned(4, std::numbers::pi / 4), colour);
+  case vtkPlotPoints::DIAMOND:
+    return canvas.polygon(turned(4, 0), colour);
+  case vtkPlotPoints::PLUS:
+    stroke(reach, 0);
+    return stroke(0, reach);
+  case vtkPlotPoints::CROSS:
+    stroke(0.7 * reach, 0.7 * reach);
+    return stroke(0.7 * reach, -0.7 * reach);
+  default:
+    return canvas.polygon(turned(24, 0), colour);
+  }
+}
+
 /// Names of the curves to the right of the chart, where they hide nothing.
 void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) {
   const double left = width - legend_width + 20;
@@ -150,7 +182,7 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) 
     const Curve& curve = chart.curves[c];
     const Colour colour = colour_of(curve, static_cast<int>(c));
     if (curve.dots)
-      canvas.rectangle({left + 20, y - 7}, {left + 34, y + 7}, colour);
+      draw_marker(canvas, {left + 27, y}, marker_of(curve), colour);
     else if (curve.dashed)
       for (const double part : {0.0, 22.0, 44.0})
         canvas.line({left + part, y}, {left + part + 12, y}, colour, 5);

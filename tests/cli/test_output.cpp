@@ -97,6 +97,9 @@ TEST(Output, RunWritesWhatItPromises) {
                           "dt_max",
                           "step",
                           "wall_seconds",
+                          "cpu_seconds",
+                          "setup_seconds",
+                          "peak_bytes",
                           "us_per_particle_step",
                           "threads",
                           "bytes_per_particle",
@@ -111,6 +114,10 @@ TEST(Output, RunWritesWhatItPromises) {
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["particles"], 225);
   EXPECT_EQ(summary["threads"], 2);
+  EXPECT_GT(summary["cpu_seconds"], 0);
+  EXPECT_GT(summary["setup_seconds"], summary["cpu_seconds"]) << "a CAD import, and few steps";
+  EXPECT_GT(summary["peak_bytes"], 10e6);
+  EXPECT_LT(summary["peak_bytes"], 1e9);
   EXPECT_NEAR(summary["volume_sum"].get<double>(), 2e-6, 1e-18);
   EXPECT_NEAR(summary["time"].get<double>(), 5e-6, 1e-18);
   EXPECT_LT(summary["probes"]["length_m"].get<double>(), 0.02) << "the bar is shortened by the impact";
