@@ -41,6 +41,7 @@ struct Drawing {
 };
 
 /// One curve, points where `dots`, or columns standing on zero where `bars` (x evenly spaced).
+/// Without a label it is left out of the legend, without points only there.
 struct Curve {
   static constexpr int by_place = -1, grey = 7;
 

@@ -79,6 +79,26 @@ const Axis& axis_named(const Study& study, const std::string& name) {
                        [&](const Axis& axis) { return axis.name == name; });
 }
 
+/// Names without points: one a colour and, where another axis has the markers, one a marker.
+std::vector<post::Curve> legend(const Study& study) {
+  std::vector<post::Curve> entries;
+  const bool two = study.colour != study.marker;
+  const auto add = [&](const std::string& label, std::size_t colour, std::size_t marker) {
+    post::Curve& entry = entries.emplace_back();
+    entry.label = label;
+    entry.dots = true;
+    entry.colour = static_cast<int>(colour);
+    entry.marker = static_cast<int>(marker);
+  };
+  const auto& colours = axis_named(study, study.colour).values;
+  for (std::size_t i = 0; i < colours.size(); ++i)
+    add(colours[i].label, i, two ? 0 : i);
+  const auto& markers = axis_named(study, study.marker).values;
+  for (std::size_t i = 0; two && i < markers.size(); ++i)
+    add(markers[i].label, static_cast<std::size_t>(post::Curve::grey), i);
+  return entries;
+}
+
 } // namespace
 
 Results collect_results(const Study& study, const Plan& plan, const RunStore& store, const Failures& passing) {
@@ -93,7 +113,7 @@ Results collect_results(const Study& study, const Plan& plan, const RunStore& st
     costs.push_back({results.rows.back().cpu_seconds, results.rows.back().error});
   }
   results.front = pareto_front(costs);
-  for (const double target : study.targets) {
+  for (const double target : study.error.targets) {
     const auto best = cheapest_within(costs, target);
     results.recommendations.push_back({target, best ? static_cast<std::ptrdiff_t>(*best) : -1});
   }
@@ -103,16 +123,12 @@ Results collect_results(const Study& study, const Plan& plan, const RunStore& st
 bool draw_pareto(const Study& study, const Results& results, const fs::path& folder, Progress& progress) {
   const std::string cost = "Processor time of the steps (s)";
   post::Chart chart{study.title, cost, fmt::format("Relative {}", error_words(study)), true, true, {}};
-  const bool two = study.colour != study.marker;
   std::map<std::pair<std::size_t, std::size_t>, post::Curve> curves;
   for (const Row& row : results.rows) {
     if (!std::isfinite(row.error) || row.error <= 0)
       continue;
     const std::size_t colour = place_on(study, study.colour, row), marker = place_on(study, study.marker, row);
     post::Curve& curve = curves[{colour, marker}];
-    curve.label = axis_named(study, study.colour).values[colour].label;
-    if (two)
-      curve.label += ", " + axis_named(study, study.marker).values[marker].label;
     curve.dots = true;
     curve.colour = static_cast<int>(colour);
     curve.marker = static_cast<int>(marker);
@@ -130,6 +146,8 @@ bool draw_pareto(const Study& study, const Results& results, const fs::path& fol
     front.y.push_back(results.rows[i].error);
   }
   chart.curves.push_back(std::move(front));
+  for (post::Curve& entry : legend(study))
+    chart.curves.push_back(std::move(entry));
   for (auto& [place, curve] : curves)
     chart.curves.push_back(std::move(curve));
   return !post::render({{}, {{fs::absolute(folder / "pareto.png").string(), {chart}}}}, progress).empty();

@@ -149,14 +149,26 @@ ErrorMeasure::History read_history_reference(Table table, const fs::path& study)
   return history;
 }
 
+std::vector<double> read_targets(Table& table) {
+  if (!table.has("targets"))
+    return {0.1, 0.03, 0.01, 0.003, 0.001};
+  std::vector<double> targets = table.number_list("targets");
+  for (const double target : targets)
+    if (target <= 0)
+      table.refuse("targets", fmt::format("a target is {}", target), "it is a relative error, greater than 0");
+  std::sort(targets.begin(), targets.end(), std::greater<>());
+  return targets;
+}
+
 ErrorMeasure read_error(Table table, const fs::path& study) {
   ErrorMeasure error;
   const int ways = table.has("exact") + table.has("probe") + table.has("field");
   if (ways != 1)
     throw InputError(fmt::format("error names {} measures", ways == 0 ? "no" : "several"), table.where(),
                      "give exactly one of exact = \"velocity\", probe = \"name\" and field = \"velocity\"");
-  for (const char* key : {"exact", "probe", "field", "value", "history", "finer", "norm"})
+  for (const char* key : {"exact", "probe", "field", "value", "history", "finer", "norm", "targets"})
     table.allow(key);
+  table.finish();
   if (table.has("exact")) {
     error.of = ErrorMeasure::Of::closed_form;
     error.name = table.choice("exact", fields);
@@ -176,6 +188,7 @@ ErrorMeasure read_error(Table table, const fs::path& study) {
     error.history = read_history_reference(*history, study);
   if (auto finer = table.optional_table("finer"))
     error.finer = finer->assignments();
+  error.targets = read_targets(table);
 
   const auto only_for = [&](const char* key, bool serves, const char* measures) {
     if (table.has(key) && !serves)
@@ -197,19 +210,6 @@ ErrorMeasure read_error(Table table, const fs::path& study) {
   return error;
 }
 
-std::vector<double> read_targets(Table& table) {
-  if (!table.has("targets")) {
-    table.allow("targets");
-    return {0.1, 0.03, 0.01, 0.003, 0.001};
-  }
-  std::vector<double> targets = table.number_list("targets");
-  for (const double target : targets)
-    if (target <= 0)
-      table.refuse("targets", fmt::format("a target is {}", target), "it is a relative error, greater than 0");
-  std::sort(targets.begin(), targets.end(), std::greater<>());
-  return targets;
-}
-
 } // namespace
 
 Study read_study(const fs::path& file) {
@@ -225,7 +225,6 @@ Study read_study(const fs::path& file) {
   std::optional<Table> common = root.optional_table("common");
   const std::vector<Table> axes = root.tables("axis"), exclusions = root.tables("exclude");
   Table error = root.table("error");
-  study.targets = read_targets(root);
   study.time_limit = root.number_or("time_limit", 0, not_negative);
   for (const char* key : {"colour", "marker"})
     root.allow(key);

@@ -45,6 +45,7 @@ struct ErrorMeasure {
   };
   std::optional<History> history;
   std::optional<std::vector<std::string>> finer; ///< assignments of the run the others are held against
+  std::vector<double> targets;                   ///< errors to recommend a run for, descending
 };
 
 struct Study {
@@ -56,7 +57,6 @@ struct Study {
   std::vector<Axis> axes;
   std::vector<Exclusion> exclude;
   ErrorMeasure error;
-  std::vector<double> targets; ///< relative errors to recommend a run for, descending
   std::string colour, marker;  ///< names of the axes pareto.png tells apart
   double time_limit = 0;       ///< wall time of a run, s; 0: none
   std::string text;            ///< as TOML with absolute paths: what DIR/study.toml holds

@@ -175,11 +175,15 @@ void draw_marker(Canvas& canvas, Pixel at, int style, Colour colour) {
 /// Names of the curves to the right of the chart, where they hide nothing.
 void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) {
   const double left = width - legend_width + 20;
-  const double step = std::min(44.0, height / static_cast<double>(chart.curves.size()));
+  const auto named = std::count_if(chart.curves.begin(), chart.curves.end(),
+                                   [](const Curve& curve) { return !curve.label.empty(); });
+  const double step = std::min(44.0, height / static_cast<double>(std::max<std::ptrdiff_t>(named, 1)));
   const int size = std::clamp(static_cast<int>(0.7 * step), 10, 25);
   double y = top - 110;
-  for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= step) {
+  for (std::size_t c = 0; c < chart.curves.size(); ++c) {
     const Curve& curve = chart.curves[c];
+    if (curve.label.empty())
+      continue;
     const Colour colour = colour_of(curve, static_cast<int>(c));
     if (curve.dots)
       draw_marker(canvas, {left + 27, y}, marker_of(curve), colour);
@@ -189,6 +193,7 @@ void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) 
     else
       canvas.line({left, y}, {left + 54, y}, colour, 5);
     canvas.text({left + 70, y}, curve.label, {.size = size, .width = legend_width - 100.0});
+    y -= step;
   }
 }
 

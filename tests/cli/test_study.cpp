@@ -35,7 +35,8 @@ const std::string by_spacing = axis("spacing", "key = \"particles.spacing\"\nval
 /// The study's runs by their labels "a, b".
 std::map<std::string, Json> runs_of(const Workplace& place, const std::string& folder) {
   std::map<std::string, Json> runs;
-  for (const Json& run : Json::parse(place.read(folder + "/study.json")).at("runs")) {
+  const Json study = Json::parse(place.read(folder + "/study.json"));
+  for (const Json& run : study.at("runs")) {
     std::string words;
     for (const auto& [name, label] : run.at("labels").items())
       words += (words.empty() ? "" : ", ") + label.get<std::string>();

@@ -86,7 +86,7 @@ TEST_F(StudyFile, AxesBecomeAssignments) {
             (std::vector<std::string>{"particles.arrangement='voronoi'", "solver.scheme='thesis'"}));
   EXPECT_EQ(study.axes[1].values[2].label, "400");
   EXPECT_EQ(study.axes[1].values[2].assignments, std::vector<std::string>{"particles.count=400"});
-  EXPECT_EQ(study.targets.front(), 0.1);
+  EXPECT_EQ(study.error.targets.front(), 0.1);
   EXPECT_EQ(study.colour, "cloud");
   EXPECT_EQ(study.error.value, 0.03);
 }
@@ -164,6 +164,9 @@ TEST_F(StudyFile, BadStudiesAreOneLine) {
   expect_complaint(study_with("probe = \"length\"\nvalue = 0.03", "exact = \"velocity\""),
                    {"no closed form of the velocity", "[exact]"});
   expect_complaint(study_with("value = 0.03\n", ""), {"error has 0 references", "history"});
+  expect_complaint(study_with("value = 0.03", "value = 0.03\ntagrets = [1]"),
+                   {"study.toml:8:1", "'error.tagrets'", "did you mean 'targets'"});
+  expect_complaint(study_with("value = 0.03", "value = 0.03\ntargets = [0]"), {"a target is 0"});
   expect_complaint(study_with("value = 0.03", "value = 0"), {"study.toml:7", "relative"});
   expect_complaint(study_with("value = 0.03", "value = 1\nnorm = \"rms\""), {"error.norm does nothing"});
   expect_complaint(study_with("value = 0.03", "history = {file = \"h.csv\", column = \"x\"}"), {"h.csv"});

@@ -78,7 +78,7 @@ class StudyResults : public testing::Test {
     study.axes = {{"size", {{"1", {}}, {"2, large", {}}, {"3", {}}}}};
     study.colour = study.marker = "size";
     study.error.name = "velocity";
-    study.targets = {0.1, 0.001};
+    study.error.targets = {0.1, 0.001};
     for (const char* id : {"a", "b", "c"})
       plan.runs.push_back({{study.axes[0].values[plan.runs.size()].label}, id, id, "", 1});
     std::filesystem::create_directories(store.run("a"));
