@@ -57,13 +57,13 @@ struct Grammar {
         ->required();
     study_command->add_flag("--retry-failed", o.retry, "Run again what failed before");
     study_command
-        ->add_option("-o,--output", o.output,
-                     "Folder to write to, or to go on in (runs/NAME unless given, NAME from the study's folder and "
-                     "file)")
+        ->add_option(
+            "-o,--output", o.output,
+            "Folder to write to, or to go on in (runs/NAME unless given, NAME from the study's folder and "
+            "file)")
         ->type_name("DIR");
-    run_command->add_flag(
-        "!--no-pictures", o.pictures,
-        "Leave out pictures and report (tessera post DIR makes them later)");
+    run_command->add_flag("!--no-pictures", o.pictures,
+                          "Leave out pictures and report (tessera post DIR makes them later)");
     post_command->add_option("folder", o.folders, "Folder of a run")
         ->type_name("DIR")
         ->required()

@@ -1,5 +1,5 @@
-/// What the program has cost so far: processor time and memory. Unlike wall time the former means the same on a
-/// busy machine.
+/// What the program has cost so far: processor time and memory. Unlike wall time the former means the same on
+/// a busy machine.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,8 @@ std::string read_text(const fs::path& file, const std::string& kind) {
   std::string text(largest_file + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  require(!in.bad(), fmt::format("cannot read the {} file", kind), file.string(), "check that it is a text file");
+  require(!in.bad(), fmt::format("cannot read the {} file", kind), file.string(),
+          "check that it is a text file");
   require(text.size() <= largest_file, fmt::format("the {} file is larger than 1 MiB", kind), file.string(),
           fmt::format("give a TOML {}, not a mesh or a cloud", kind));
   return text;

@@ -13,8 +13,8 @@ namespace tessera::app {
 
 class Document {
  public:
-  /// Reads at most 1 MiB of `file`, or of file/KIND.toml where it is a folder. InputError when the file cannot
-  /// be read or is not TOML, or an override does not fit it.
+  /// Reads at most 1 MiB of `file`, or of file/KIND.toml where it is a folder. InputError when the file
+  /// cannot be read or is not TOML, or an override does not fit it.
   Document(const std::filesystem::path& file, const std::vector<std::string>& overrides,
            const std::string& kind = "case");
 

@@ -56,7 +56,8 @@ void study(const Options& options) {
   const Study study = read_study(options.case_file);
   const Plan plan = plan_study(study, options.overrides);
   const fs::path folder =
-      fs::absolute(options.output.empty() ? fs::path("runs") / study.name : options.output).lexically_normal();
+      fs::absolute(options.output.empty() ? fs::path("runs") / study.name : options.output)
+          .lexically_normal();
   open_folder(folder);
   store_input(folder / "study.toml", study.path, options.overrides, study.text);
   io::make_output_folder(folder / "cases");
@@ -82,14 +83,16 @@ void study(const Options& options) {
   const auto measured = std::count_if(results.rows.begin(), results.rows.end(),
                                       [](const Row& row) { return std::isfinite(row.error); });
   if (measured == 0)
-    throw RunError(fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
-                   folder.string(), "see report.md there");
-  console.result(fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: study.csv, study.json, "
-                             "report.md{}\n",
-                             study.title, measured, measured == 1 ? "" : "s", results.rows.size() - static_cast<std::size_t>(measured),
-                             recommendations_text(study, results), folder.string(),
-                             picture ? ", pareto.png" : ""),
-                 results_json(study, results));
+    throw RunError(
+        fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
+        folder.string(), "see report.md there");
+  console.result(
+      fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: study.csv, study.json, "
+                  "report.md{}\n",
+                  study.title, measured, measured == 1 ? "" : "s",
+                  results.rows.size() - static_cast<std::size_t>(measured),
+                  recommendations_text(study, results), folder.string(), picture ? ", pareto.png" : ""),
+      results_json(study, results));
 }
 
 } // namespace tessera::app

@@ -8,8 +8,8 @@
 
 namespace tessera::app {
 
-/// 64-bit FNV-1a of pieces of text, each counted with its length, so that moving a letter from one to the next
-/// changes it.
+/// 64-bit FNV-1a of pieces of text, each counted with its length, so that moving a letter from one to the
+/// next changes it.
 class ContentHash {
  public:
   void add(std::string_view text);

@@ -66,7 +66,8 @@ Sampled sample(const ParticleCloud& cloud, const std::vector<double>& values, co
     }
     ++result.points;
     for (std::size_t c = 0; c < components; ++c) {
-      const double v = (*sampling)([&](std::int32_t b) { return values[static_cast<std::size_t>(b) * components + c]; });
+      const double v =
+          (*sampling)([&](std::int32_t b) { return values[static_cast<std::size_t>(b) * components + c]; });
       const double truth = true_values[i * components + c];
       result.difference += fine.V[i] * (v - truth) * (v - truth);
       result.truth += fine.V[i] * truth * truth;
@@ -99,7 +100,8 @@ double history_error(const TimeSeries& run, const TimeSeries& truth, ErrorMeasur
     t_before = t, d_before = d, v_before = v;
     last = std::abs(d), last_truth = std::abs(v);
   }
-  require(used >= 2, "the reference's times lie outside of the run's", "", "check its time column and factor");
+  require(used >= 2, "the reference's times lie outside of the run's", "",
+          "check its time column and factor");
   switch (norm) {
   case ErrorMeasure::Norm::worst:
     return worst / scale;
@@ -134,8 +136,11 @@ double Measure::of_field(const fs::path& folder) const {
   const std::string field = measure_.name == "displacement" ? "Displacement"
                             : measure_.name == "velocity"   ? "Velocity"
                                                             : "Pressure";
-  const auto values = [&](const fs::path& of) { return io::read_field(io::read_series(of).back().file, field); };
-  const ParticleCloud cloud = io::read_cloud(folder / "cloud.vtp"), fine = io::read_cloud(finer_ / "cloud.vtp");
+  const auto values = [&](const fs::path& of) {
+    return io::read_field(io::read_series(of).back().file, field);
+  };
+  const ParticleCloud cloud = io::read_cloud(folder / "cloud.vtp"),
+                      fine = io::read_cloud(finer_ / "cloud.vtp");
   const Sampled sampled = fine.dimension == 3 ? sample<3>(cloud, values(folder), fine, values(finer_))
                                               : sample<2>(cloud, values(folder), fine, values(finer_));
   require(sampled.points > 0, "none of the finer run's particles lies in the body of this one",

@@ -13,8 +13,8 @@ struct CostAndError {
   double cost, error;
 };
 
-/// Those that no other beats: none is as cheap and as accurate and better in one of the two. In order of cost;
-/// of runs alike in both the first.
+/// Those that no other beats: none is as cheap and as accurate and better in one of the two. In order of
+/// cost; of runs alike in both the first.
 std::vector<std::size_t> pareto_front(std::span<const CostAndError> runs);
 
 /// The cheapest run whose error is at most `target`.

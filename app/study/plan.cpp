@@ -33,10 +33,12 @@ void refuse_contradictions(const Study& study, const std::vector<std::string>& o
                   "--set " + override_, "leave it out, or change the study");
 }
 
-fs::path required_file(const preprocess::GeometrySource& source, const Case& the_case, const std::string& key) {
+fs::path required_file(const preprocess::GeometrySource& source, const Case& the_case,
+                       const std::string& key) {
   std::error_code failed;
-  require(fs::is_regular_file(source.file, failed), fmt::format("there is no CAD file {}", source.file.string()),
-          the_case.where(key), "paths are relative to the case file");
+  require(fs::is_regular_file(source.file, failed),
+          fmt::format("there is no CAD file {}", source.file.string()), the_case.where(key),
+          "paths are relative to the case file");
   return source.file;
 }
 
@@ -49,16 +51,18 @@ std::string id_of(const Case& the_case) {
     hash.add_file(required_file(the_case.geometry, the_case, "geometry.file"));
   for (const WallSurface& surface : the_case.wall_surfaces)
     if (!surface.source.shape)
-      hash.add_file(required_file(surface.source, the_case, fmt::format("wall.{}.surface.file", surface.entry)));
+      hash.add_file(
+          required_file(surface.source, the_case, fmt::format("wall.{}.surface.file", surface.entry)));
   return hash.text();
 }
 
-/// In proportion to particles times steps, with what Heun's method takes above Störmer and Verlet's; bodies are
-/// taken to be all of one volume.
+/// In proportion to particles times steps, with what Heun's method takes above Störmer and Verlet's; bodies
+/// are taken to be all of one volume.
 double work_of(const Case& the_case) {
   const double d = the_case.geometry.dimension;
   const preprocess::ParticleRequest& particles = the_case.particles;
-  const double n = particles.count > 0 ? static_cast<double>(particles.count) : std::pow(particles.spacing, -d);
+  const double n =
+      particles.count > 0 ? static_cast<double>(particles.count) : std::pow(particles.spacing, -d);
   constexpr double heun = 5; // two evaluations a step, and shorter steps
   return the_case.scene.end_time * std::pow(n, 1 + 1 / d) *
          (solver::chosen_integrator(the_case.scene) == "heun" ? heun : 1);
@@ -118,8 +122,8 @@ Plan plan_study(const Study& study, const std::vector<std::string>& overrides) {
   };
   Plan plan;
   for (const GridPoint& point : expand_grid(study)) {
-    plan.runs.push_back(plan_run(study, with(point.assignments), fmt::format("{}", fmt::join(point.labels, ", ")),
-                                 plan.column));
+    plan.runs.push_back(plan_run(study, with(point.assignments),
+                                 fmt::format("{}", fmt::join(point.labels, ", ")), plan.column));
     plan.runs.back().labels = point.labels;
   }
   if (study.error.finer)

@@ -12,9 +12,9 @@ namespace tessera::app {
 struct PlannedRun {
   std::vector<std::string> labels; ///< one an axis; none of the finer run
   std::string words;               ///< the labels in a line
-  std::string id;                  ///< of its content: the case as it will run, the files it reads, the version
-  std::string text;                ///< the case as TOML
-  double work = 0;                 ///< estimated, in a unit of no meaning
+  std::string id;   ///< of its content: the case as it will run, the files it reads, the version
+  std::string text; ///< the case as TOML
+  double work = 0;  ///< estimated, in a unit of no meaning
 };
 
 struct Plan {
@@ -23,8 +23,8 @@ struct Plan {
   std::string column; ///< of history.csv, of the probe that is measured
 };
 
-/// `overrides`: of the command line, for all runs. InputError, naming the run, for any case that is refused or
-/// cannot be measured as the study says.
+/// `overrides`: of the command line, for all runs. InputError, naming the run, for any case that is refused
+/// or cannot be measured as the study says.
 Plan plan_study(const Study& study, const std::vector<std::string>& overrides);
 
 } // namespace tessera::app

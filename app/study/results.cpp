@@ -101,7 +101,8 @@ std::vector<post::Curve> legend(const Study& study) {
 
 } // namespace
 
-Results collect_results(const Study& study, const Plan& plan, const RunStore& store, const Failures& passing) {
+Results collect_results(const Study& study, const Plan& plan, const RunStore& store,
+                        const Failures& passing) {
   const std::string unmeasured = reference_failure(plan, store, passing);
   std::optional<Measure> measure;
   if (unmeasured.empty())
@@ -127,7 +128,8 @@ bool draw_pareto(const Study& study, const Results& results, const fs::path& fol
   for (const Row& row : results.rows) {
     if (!std::isfinite(row.error) || row.error <= 0)
       continue;
-    const std::size_t colour = place_on(study, study.colour, row), marker = place_on(study, study.marker, row);
+    const std::size_t colour = place_on(study, study.colour, row),
+                      marker = place_on(study, study.marker, row);
     post::Curve& curve = curves[{colour, marker}];
     curve.dots = true;
     curve.colour = static_cast<int>(colour);

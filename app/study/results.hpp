@@ -29,7 +29,7 @@ struct Row {
 };
 
 struct Recommendation {
-  double target;    ///< relative error
+  double target;      ///< relative error
   std::ptrdiff_t row; ///< the cheapest that keeps to it; -1: none does
 };
 

@@ -114,8 +114,9 @@ std::string results_csv(const Study& study, const Results& results) {
   std::vector<std::string> cells;
   for (const Axis& axis : study.axes)
     cells.push_back(csv_cell(axis.name));
-  std::string text = fmt::format(
-      "{},particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n", fmt::join(cells, ","));
+  std::string text =
+      fmt::format("{},particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n",
+                  fmt::join(cells, ","));
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const Row& row = results.rows[i];
     cells.clear();
@@ -132,14 +133,10 @@ std::string results_csv(const Study& study, const Results& results) {
 
 std::string results_json(const Study& study, const Results& results) {
   using Json = nlohmann::ordered_json;
-  Json json{{"title", study.title},
-            {"version", TESSERA_VERSION},
-            {"case", study.case_file.string()},
-            {"error", error_words(study)},
-            {"axes", Json::array()},
-            {"runs", Json::array()},
-            {"front", results.front},
-            {"recommendations", Json::array()}};
+  Json json{
+      {"title", study.title},        {"version", TESSERA_VERSION},      {"case", study.case_file.string()},
+      {"error", error_words(study)}, {"axes", Json::array()},           {"runs", Json::array()},
+      {"front", results.front},      {"recommendations", Json::array()}};
   for (const Axis& axis : study.axes) {
     Json labels = Json::array();
     for (const AxisValue& value : axis.values)
@@ -171,11 +168,12 @@ std::string results_markdown(const Study& study, const Results& results, bool pi
     text += fmt::format("- {}\n", recommendation(study, results, r));
   if (picture)
     text += "\n![Error against cost](pareto.png)\n";
-  text += fmt::format("\nCost is processor time on one thread, so that it means the same on a busy machine: of "
-                      "the steps, without what is written;\nset-up, from the geometry to the operators, apart. "
-                      "Errors are relative. Each run is in `runs/`, named in study.csv.\n\n"
-                      "## What is worth its cost\nNo other run is as cheap and as accurate.\n\n{}",
-                      table_head(study, false));
+  text +=
+      fmt::format("\nCost is processor time on one thread, so that it means the same on a busy machine: of "
+                  "the steps, without what is written;\nset-up, from the geometry to the operators, apart. "
+                  "Errors are relative. Each run is in `runs/`, named in study.csv.\n\n"
+                  "## What is worth its cost\nNo other run is as cheap and as accurate.\n\n{}",
+                  table_head(study, false));
   for (const std::size_t i : results.front)
     text += fmt::format("|{}", table_row(results.rows[i]));
   std::vector<std::size_t> order;

@@ -45,7 +45,8 @@ std::string why_it_ended(const ChildEnd& end, double time_limit) {
   case ChildEnd::How::signalled:
     return fmt::format("ended by signal {} ({})", end.code, strsignal(end.code));
   default:
-    return complaint(end.output).empty() ? fmt::format("ended with status {}", end.code) : complaint(end.output);
+    return complaint(end.output).empty() ? fmt::format("ended with status {}", end.code)
+                                         : complaint(end.output);
   }
 }
 
@@ -141,8 +142,8 @@ void RunStore::forget_failure(const std::string& id) const {
   fs::remove(failure_file(id));
 }
 
-std::map<std::string, std::string> run_all(std::vector<RunToDo> runs, const RunStore& store, int at_once, double time_limit,
-             Progress& progress) {
+std::map<std::string, std::string> run_all(std::vector<RunToDo> runs, const RunStore& store, int at_once,
+                                           double time_limit, Progress& progress) {
   if (runs.empty())
     return {};
   const auto workers = std::min(static_cast<std::size_t>(at_once), runs.size());

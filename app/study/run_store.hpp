@@ -43,11 +43,12 @@ struct RunToDo {
   double work;       ///< estimated, in any unit
 };
 
-/// Runs them as processes of this program, `at_once` side by side and on one thread each, the most work first. A
-/// run that fails, dies or takes longer than `time_limit` (wall time, s; 0: none) is noted and the others go on;
-/// it is kept as a failure only where the solver gave up (status 1), the rest is tried again next time. Returns
-/// early when interrupted: unfinished runs are then gone. By id, why those failed that are not kept.
-std::map<std::string, std::string> run_all(std::vector<RunToDo> runs, const RunStore& store, int at_once, double time_limit,
-             Progress& progress);
+/// Runs them as processes of this program, `at_once` side by side and on one thread each, the most work
+/// first. A run that fails, dies or takes longer than `time_limit` (wall time, s; 0: none) is noted and the
+/// others go on; it is kept as a failure only where the solver gave up (status 1), the rest is tried again
+/// next time. Returns early when interrupted: unfinished runs are then gone. By id, why those failed that are
+/// not kept.
+std::map<std::string, std::string> run_all(std::vector<RunToDo> runs, const RunStore& store, int at_once,
+                                           double time_limit, Progress& progress);
 
 } // namespace tessera::app

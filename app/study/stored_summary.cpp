@@ -26,7 +26,7 @@ double StoredSummary::number(const std::string& pointer) const {
   const nlohmann::json::json_pointer place(pointer);
   const nlohmann::json& json = content_->json;
   return json.contains(place) && json.at(place).is_number() ? json.at(place).get<double>()
-                                                             : std::numeric_limits<double>::quiet_NaN();
+                                                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace tessera::app

@@ -30,9 +30,9 @@ fs::path beside(const fs::path& study, const std::string& file) {
 
 std::string label_of(Table& value) {
   const std::string label = value.text("label");
-  const bool good = !label.empty() && label.size() <= 64 && std::none_of(label.begin(), label.end(), [](char c) {
-    return std::iscntrl(static_cast<unsigned char>(c)) != 0;
-  });
+  const bool good = !label.empty() && label.size() <= 64 &&
+                    std::none_of(label.begin(), label.end(),
+                                 [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
   if (value.has("label") && !good)
     value.refuse("label", fmt::format("{} is {}", value.path_of("label"), in_quotes(label)),
                  "a label has 1 to 64 characters");
@@ -54,8 +54,9 @@ Axis read_axis(Table table) {
     std::vector<Table> values = table.tables("values");
     table.finish();
     if (values.empty())
-      table.refuse("values", fmt::format("{} lists no values", table.path()),
-                   "add values = [{label = \"...\", some.key = 1}, ...], or key = \"some.key\" and values = [1, 2]");
+      table.refuse(
+          "values", fmt::format("{} lists no values", table.path()),
+          "add values = [{label = \"...\", some.key = 1}, ...], or key = \"some.key\" and values = [1, 2]");
     for (Table& value : values) {
       AxisValue entry{label_of(value), {}};
       entry.assignments = value.assignments();
@@ -66,7 +67,8 @@ Axis read_axis(Table table) {
   std::set<std::string> labels;
   for (const AxisValue& value : axis.values)
     if (!labels.insert(value.label).second)
-      table.refuse("values", fmt::format("axis '{}' has two values called {}", axis.name, in_quotes(value.label)),
+      table.refuse("values",
+                   fmt::format("axis '{}' has two values called {}", axis.name, in_quotes(value.label)),
                    "give each its own label");
   return axis;
 }
@@ -79,8 +81,8 @@ std::vector<Axis> read_axes(const std::vector<Table>& tables, const Table& root)
   for (const Table& table : tables) {
     Axis axis = read_axis(table);
     // Names of the columns beside the axes' own.
-    for (const char* taken : {"particles", "steps", "error", "cpu_seconds", "setup_seconds", "peak_bytes", "front",
-                              "run", "failure"})
+    for (const char* taken : {"particles", "steps", "error", "cpu_seconds", "setup_seconds", "peak_bytes",
+                              "front", "run", "failure"})
       if (axis.name == taken)
         table.refuse("name", fmt::format("an axis may not be called '{}'", taken),
                      "study.csv has a column of that name");
@@ -155,7 +157,8 @@ std::vector<double> read_targets(Table& table) {
   std::vector<double> targets = table.number_list("targets");
   for (const double target : targets)
     if (target <= 0)
-      table.refuse("targets", fmt::format("a target is {}", target), "it is a relative error, greater than 0");
+      table.refuse("targets", fmt::format("a target is {}", target),
+                   "it is a relative error, greater than 0");
   std::sort(targets.begin(), targets.end(), std::greater<>());
   return targets;
 }

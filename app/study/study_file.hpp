@@ -50,20 +50,20 @@ struct ErrorMeasure {
 
 struct Study {
   std::string title;
-  std::string name;               ///< of the default output folder: "swinging_cube-study"
-  std::filesystem::path path;     ///< of the study file
+  std::string name;           ///< of the default output folder: "swinging_cube-study"
+  std::filesystem::path path; ///< of the study file
   std::filesystem::path case_file;
   std::vector<std::string> common; ///< assignments of all runs
   std::vector<Axis> axes;
   std::vector<Exclusion> exclude;
   ErrorMeasure error;
-  std::string colour, marker;  ///< names of the axes pareto.png tells apart
-  double time_limit = 0;       ///< wall time of a run, s; 0: none
-  std::string text;            ///< as TOML with absolute paths: what DIR/study.toml holds
+  std::string colour, marker; ///< names of the axes pareto.png tells apart
+  double time_limit = 0;      ///< wall time of a run, s; 0: none
+  std::string text;           ///< as TOML with absolute paths: what DIR/study.toml holds
 };
 
-/// Reads `file` (or file/study.toml where it is a folder). InputError, naming file, line and column, on anything
-/// unknown, missing or contradictory.
+/// Reads `file` (or file/study.toml where it is a folder). InputError, naming file, line and column, on
+/// anything unknown, missing or contradictory.
 Study read_study(const std::filesystem::path& file);
 
 } // namespace tessera::app

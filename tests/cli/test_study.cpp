@@ -48,9 +48,10 @@ std::map<std::string, Json> runs_of(const Workplace& place, const std::string& f
 TEST(Study, RunsTheGridAndOnlyOnce) {
   const Workplace place;
   write_small_case(place);
-  place.write("study.toml", study_head + by_length +
-                                axis("scheme", "key = \"solver.scheme\"\nvalues = [\"consistent\", \"thesis\"]") +
-                                by_spacing + "[[exclude]]\nscheme = \"thesis\"\nspacing = 0.0025\n");
+  place.write("study.toml",
+              study_head + by_length +
+                  axis("scheme", "key = \"solver.scheme\"\nvalues = [\"consistent\", \"thesis\"]") +
+                  by_spacing + "[[exclude]]\nscheme = \"thesis\"\nspacing = 0.0025\n");
   const Result result = place.tessera({"study", "study.toml", "-o", "out", "--threads", "2"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NE(result.out.find("3 runs measured, 0 without an error"), std::string::npos) << result.out;
@@ -76,8 +77,9 @@ TEST(Study, RunsTheGridAndOnlyOnce) {
   EXPECT_EQ(runs_of(place, "out").at("consistent, 0.0025"), fine);
 
   // One more on an axis: one run more, two were there.
-  place.write("study.toml", study_head + by_length +
-                                axis("spacing", "key = \"particles.spacing\"\nvalues = [0.005, 0.0025, 0.01]"));
+  place.write("study.toml",
+              study_head + by_length + axis("scheme", "key = \"solver.scheme\"\nvalues = [\"consistent\"]") +
+                  axis("spacing", "key = \"particles.spacing\"\nvalues = [0.005, 0.0025, 0.01]"));
   const Result more = place.tessera({"study", "study.toml", "-o", "out"});
   ASSERT_EQ(more.status, 0) << more.err;
   EXPECT_NE(more.err.find("3 runs, 1 of them to do"), std::string::npos) << more.err;
@@ -86,10 +88,12 @@ TEST(Study, RunsTheGridAndOnlyOnce) {
 TEST(Study, InterruptedGoesOnWhereItWas) {
   const Workplace place;
   write_small_case(place);
-  // Neither is longer than the other to look at, so the short one is taken first and the endless one after it.
-  place.write("study.toml", study_head + by_length +
-                                axis("time", "values = [{label = \"short\", output.history_rows = 3}, "
-                                             "{label = \"endless\", output.history_rows = 5, solver.cfl = 1e-5}]"));
+  // Neither is longer than the other to look at, so the short one is taken first and the endless one after
+  // it.
+  place.write("study.toml",
+              study_head + by_length +
+                  axis("time", "values = [{label = \"short\", output.history_rows = 3}, "
+                               "{label = \"endless\", output.history_rows = 5, solver.cfl = 1e-5}]"));
   const pid_t process = place.start({"study", "study.toml", "-o", "out", "--threads", "2"}, {});
   const auto finished = [&] {
     int found = 0;
@@ -104,8 +108,9 @@ TEST(Study, InterruptedGoesOnWhereItWas) {
   ::kill(process, SIGINT);
   const Result result = place.wait(process);
   EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.err.find("error: interrupted, 1 of 2 runs left to do, run the same command again to go on"),
-            std::string::npos)
+  EXPECT_NE(
+      result.err.find("error: interrupted, 1 of 2 runs left to do, run the same command again to go on"),
+      std::string::npos)
       << result.err;
   const auto kept = runs_of(place, "out");
   EXPECT_EQ(kept.at("endless").at("failure"), "not run");
@@ -136,7 +141,8 @@ TEST(Study, AFailedRunIsARowAndNotTheEnd) {
   EXPECT_TRUE(runs.at("too fast").at("error").is_null());
   EXPECT_NE(place.read("out/report.md").find("## Without an error\n- too fast: "), std::string::npos);
 
-  EXPECT_NE(place.tessera({"study", "study.toml", "-o", "out"}).err.find("0 of them to do"), std::string::npos);
+  EXPECT_NE(place.tessera({"study", "study.toml", "-o", "out"}).err.find("0 of them to do"),
+            std::string::npos);
   const Result retried = place.tessera({"study", "study.toml", "-o", "out", "--retry-failed"});
   EXPECT_NE(retried.err.find("1 of them to do"), std::string::npos) << retried.err;
 }
@@ -145,7 +151,8 @@ TEST(Study, AgainstAFinerRunByProbeAndByField) {
   const Workplace place;
   write_small_case(place);
   const std::string finer = "[error.finer]\nparticles.spacing = 0.00125\n";
-  place.write("probe.toml", study_head + "[error]\nprobe = \"foot_speed\"\nnorm = \"rms\"\n" + finer + by_spacing);
+  place.write("probe.toml",
+              study_head + "[error]\nprobe = \"length\"\nnorm = \"rms\"\n" + finer + by_spacing);
   place.write("field.toml", study_head + "[error]\nfield = \"displacement\"\n" + finer + by_spacing);
   for (const char* name : {"probe", "field"}) {
     const Result result = place.tessera({"study", std::string(name) + ".toml", "-o", "out"});

@@ -93,8 +93,8 @@ TEST_F(StudyFile, AxesBecomeAssignments) {
 
 TEST_F(StudyFile, ThoseOfTheProjectAreValid) {
   int studies = 0;
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::filesystem::path(TESSERA_SOURCE_DIR) / "geometries"))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           std::filesystem::path(TESSERA_SOURCE_DIR) / "geometries"))
     if (entry.path().filename() == "study.toml") {
       ++studies;
       EXPECT_NO_THROW(plan_study(read_study(entry.path()), {})) << entry.path();
@@ -129,7 +129,8 @@ TEST_F(StudyFile, IdIsOfTheContent) {
   // Another label, another title, another grid around it: the same run.
   const Plan renamed = plan(study_with("label = \"lattice\"", "label = \"regular\""));
   EXPECT_EQ(renamed.runs[0].id, first.runs[0].id);
-  EXPECT_EQ(plan(study_with("values = [100, 200, 400]", "values = [400, 100, 200]")).runs[0].id, first.runs[2].id);
+  EXPECT_EQ(plan(study_with("values = [100, 200, 400]", "values = [400, 100, 200]")).runs[0].id,
+            first.runs[2].id);
   EXPECT_NE(plan(study_with("end_time = 1e-6", "end_time = 2e-6")).runs[0].id, first.runs[0].id);
   EXPECT_NE(plan(complete_study, {"particles.seed=7"}).runs[0].id, first.runs[0].id);
   EXPECT_GT(first.runs[2].work, first.runs[0].work) << "more particles are more work";
@@ -152,15 +153,18 @@ TEST_F(StudyFile, FinerRunIsPlannedToo) {
 }
 
 TEST_F(StudyFile, BadStudiesAreOneLine) {
-  expect_complaint(study_with("title", "titel"), {"study.toml:1:1", "'titel'", "did you mean 'title'", "of a study"});
-  expect_complaint(study_with("case.toml", "none.toml"), {"study.toml:2", "none.toml", "relative to the study"});
+  expect_complaint(study_with("title", "titel"),
+                   {"study.toml:1:1", "'titel'", "did you mean 'title'", "of a study"});
+  expect_complaint(study_with("case.toml", "none.toml"),
+                   {"study.toml:2", "none.toml", "relative to the study"});
   expect_complaint(study_with("key = \"particles.count\"", "key = \"particles.cuont\""),
                    {"study.toml (lattice, 100)", "particles.cuont", "did you mean 'count'"});
   expect_complaint(study_with("solver.scheme = \"thesis\"", "solver.scheme = \"thesus\""),
                    {"(raw, 100)", "thesus", "thesis"});
   expect_complaint(study_with("solver.scheme = \"thesis\"", "particles.count = 5"),
                    {"'cloud' and 'size' both set particles.count"});
-  expect_complaint(study_with("probe = \"length\"", "probe = \"lenght\""), {"lenght", "did you mean 'length'"});
+  expect_complaint(study_with("probe = \"length\"", "probe = \"lenght\""),
+                   {"lenght", "did you mean 'length'"});
   expect_complaint(study_with("probe = \"length\"\nvalue = 0.03", "exact = \"velocity\""),
                    {"no closed form of the velocity", "[exact]"});
   expect_complaint(study_with("value = 0.03\n", ""), {"error has 0 references", "history"});
@@ -170,8 +174,10 @@ TEST_F(StudyFile, BadStudiesAreOneLine) {
   expect_complaint(study_with("value = 0.03", "value = 0"), {"study.toml:7", "relative"});
   expect_complaint(study_with("value = 0.03", "value = 1\nnorm = \"rms\""), {"error.norm does nothing"});
   expect_complaint(study_with("value = 0.03", "history = {file = \"h.csv\", column = \"x\"}"), {"h.csv"});
-  expect_complaint(study_with("cloud = \"raw\"", "clod = \"raw\""), {"no axis 'clod'", "did you mean 'cloud'"});
-  expect_complaint(study_with("cloud = \"raw\"", "cloud = \"rau\""), {"no value 'rau'", "did you mean 'raw'"});
+  expect_complaint(study_with("cloud = \"raw\"", "clod = \"raw\""),
+                   {"no axis 'clod'", "did you mean 'cloud'"});
+  expect_complaint(study_with("cloud = \"raw\"", "cloud = \"rau\""),
+                   {"no value 'rau'", "did you mean 'raw'"});
   expect_complaint(study_with("name = \"size\"", "name = \"cloud\""), {"two axes are called 'cloud'"});
   expect_complaint(study_with("name = \"size\"", "name = \"steps\""), {"may not be called 'steps'"});
   expect_complaint(study_with("label = \"raw\"", "label = \"lattice\""), {"two values called 'lattice'"});

@@ -16,7 +16,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Pareto, FrontIsWhatNoneBeats) {
-  const std::vector<CostAndError> runs{{1, 0.5}, {2, 0.6}, {2, 0.1}, {3, 0.1}, {nan, 0}, {4, nan}, {5, 0.01}, {1, 0.7}};
+  const std::vector<CostAndError> runs{{1, 0.5}, {2, 0.6}, {2, 0.1},  {3, 0.1},
+                                       {nan, 0}, {4, nan}, {5, 0.01}, {1, 0.7}};
   EXPECT_EQ(pareto_front(runs), (std::vector<std::size_t>{0, 2, 6}));
   EXPECT_EQ(cheapest_within(runs, 0.5), 0U);
   EXPECT_EQ(cheapest_within(runs, 0.2), 2U);
@@ -115,12 +116,14 @@ TEST_F(StudyResults, FailedRunIsARow) {
             "\"2, large\",,,,,,,0,runs/b,blew up\n"
             "3,,,,,,,0,runs/c,no memory\n");
   const std::string words = recommendations_text(study, results);
-  EXPECT_NE(words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
-            std::string::npos)
+  EXPECT_NE(
+      words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
+      std::string::npos)
       << words;
   EXPECT_NE(words.find("for 0.1 % velocity error: no run reaches it"), std::string::npos) << words;
   const std::string report = results_markdown(study, results, true);
-  for (const char* piece : {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |"})
+  for (const char* piece :
+       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |"})
     EXPECT_NE(report.find(piece), std::string::npos) << piece << "\n" << report;
   const std::string json = results_json(study, results);
   EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
