@@ -1,5 +1,6 @@
 // study.csv, study.json, report.md and what the program says at the end of a study.
 
+#include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
 #include "postprocess/quantity.hpp"
 
@@ -79,6 +80,38 @@ std::string recommendation(const Study& study, const Results& results, const Rec
   return fmt::format("for {}: {} ({:.0f} particles) costs {} s, and {} s of set-up; its error is {}",
                      target_words(study, r.target), words_of(row), row.particles, figure(row.cpu_seconds),
                      figure(row.setup_seconds), percent(row.error));
+}
+
+/// Of each value of the axis that has the colours the cheapest run that keeps to each target.
+std::string table_by_colour(const Study& study, const Results& results) {
+  const auto axis = std::find_if(study.axes.begin(), study.axes.end(),
+                                 [&](const Axis& a) { return a.name == study.colour; });
+  const auto place = static_cast<std::size_t>(axis - study.axes.begin());
+  std::string head = fmt::format("| {} |", markdown_cell(axis->name)), rule = "|:--|", rows;
+  for (const double target : study.error.targets) {
+    head += fmt::format(" {} |", percent(target));
+    rule += ":--|";
+  }
+  for (const AxisValue& value : axis->values) {
+    std::vector<CostAndError> costs;
+    for (const Row& row : results.rows)
+      costs.push_back({row.labels[place] == value.label ? row.cpu_seconds : Row::none, row.error});
+    rows += fmt::format("| {} |", markdown_cell(value.label));
+    for (const double target : study.error.targets) {
+      const auto best = cheapest_within(costs, target);
+      if (!best) {
+        rows += " - |";
+        continue;
+      }
+      const Row& row = results.rows[*best];
+      std::vector<std::string> others = row.labels;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(place));
+      rows += fmt::format(" {} s{}{} |", figure(row.cpu_seconds), others.empty() ? "" : ": ",
+                          markdown_cell(fmt::format("{}", fmt::join(others, ", "))));
+    }
+    rows += "\n";
+  }
+  return fmt::format("{}\n{}\n{}", head, rule, rows);
 }
 
 nlohmann::ordered_json number(double value) {
@@ -172,8 +205,9 @@ std::string results_markdown(const Study& study, const Results& results, bool pi
       fmt::format("\nCost is processor time on one thread, so that it means the same on a busy machine: of "
                   "the steps, without what is written;\nset-up, from the geometry to the operators, apart. "
                   "Errors are relative. Each run is in `runs/`, named in study.csv.\n\n"
+                  "## The cheapest by {} and error\n{}\n"
                   "## What is worth its cost\nNo other run is as cheap and as accurate.\n\n{}",
-                  table_head(study, false));
+                  study.colour, table_by_colour(study, results), table_head(study, false));
   for (const std::size_t i : results.front)
     text += fmt::format("|{}", table_row(results.rows[i]));
   std::vector<std::size_t> order;

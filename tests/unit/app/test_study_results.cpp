@@ -123,7 +123,8 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_NE(words.find("for 0.1 % velocity error: no run reaches it"), std::string::npos) << words;
   const std::string report = results_markdown(study, results, true);
   for (const char* piece :
-       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |"})
+       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
+        "| size | 10 % | 0.1 % |\n|:--|:--|:--|\n| 1 | 0.5 s | - |\n| 2, large | - | - |"})
     EXPECT_NE(report.find(piece), std::string::npos) << piece << "\n" << report;
   const std::string json = results_json(study, results);
   EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
