@@ -164,7 +164,8 @@ std::map<std::string, std::string> run_all(std::vector<RunToDo> runs, const RunS
   for (const std::exception_ptr& failure : thrown)
     if (failure)
       std::rethrow_exception(failure);
-  queue.finish();
+  if (!interrupted())
+    queue.finish();
   return queue.passing_failures();
 }
 
