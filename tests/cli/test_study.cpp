@@ -147,6 +147,23 @@ TEST(Study, AFailedRunIsARowAndNotTheEnd) {
   EXPECT_NE(retried.err.find("1 of them to do"), std::string::npos) << retried.err;
 }
 
+TEST(Study, ARunThatTakesTooLongIsEndedAndTriedAgain) {
+  const Workplace place;
+  write_small_case(place);
+  const std::string rest = study_head + by_length;
+  place.write("study.toml", rest + axis("time", "values = [{label = \"short\"}]"));
+  ASSERT_EQ(place.tessera({"study", "study.toml", "--quiet", "-o", "out"}).status, 0);
+  place.write("study.toml",
+              "time_limit = 1\n" + rest +
+                  axis("time", "values = [{label = \"short\"}, {label = \"endless\", solver.cfl = 1e-6}]"));
+  for (int i = 0; i < 2; ++i) {
+    const Result result = place.tessera({"study", "study.toml", "-o", "out"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_NE(result.err.find("2 runs, 1 of them to do"), std::string::npos) << result.err;
+    EXPECT_EQ(runs_of(place, "out").at("endless").at("failure"), "stopped after 1 s, the study's time_limit");
+  }
+}
+
 TEST(Study, AgainstAFinerRunByProbeAndByField) {
   const Workplace place;
   write_small_case(place);
