@@ -44,6 +44,7 @@ struct Grammar {
     CLI::App* check_command = add("check", "Validate a case and foretell its run; writes nothing", check);
     CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
 
+    CLI::App* study_command = add("study", "A grid of runs of one case: error against cost", study);
     CLI::App* materials_command =
         add("materials", "The laws a case can name, with their constants and sources", materials);
 
@@ -51,6 +52,18 @@ struct Grammar {
       command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
           ->type_name("CASE.toml")
           ->required();
+    study_command->add_option("study", o.case_file, "Study file, or the folder that holds study.toml")
+        ->type_name("STUDY.toml")
+        ->required();
+    study_command->add_flag("--retry-failed", o.retry, "Run again what failed before");
+    study_command
+        ->add_option(
+            "-o,--output", o.output,
+            "Folder to write to, or to go on in (runs/NAME unless given, NAME from the study's folder and "
+            "file)")
+        ->type_name("DIR");
+    run_command->add_flag("!--no-pictures", o.pictures,
+                          "Leave out pictures and report (tessera post DIR makes them later)");
     post_command->add_option("folder", o.folders, "Folder of a run")
         ->type_name("DIR")
         ->required()

@@ -9,11 +9,13 @@
 namespace tessera::app {
 
 struct Options {
-  std::filesystem::path case_file;            ///< run, prepare, solve, check
+  std::filesystem::path case_file;            ///< run, prepare, solve, check; study: its own file
   std::vector<std::filesystem::path> folders; ///< post (one), compare (several)
   std::filesystem::path output;               ///< -o; empty: chosen by the command
   std::filesystem::path cloud; ///< solve: particles stored earlier; empty: the output folder's own
   bool cells = false;          ///< run, prepare: also write the Voronoi cells
+  bool pictures = true;        ///< run: draw and write the report
+  bool retry = false;          ///< study: also what failed before
   bool hyperbolicity = false;  ///< materials: where their waves are real
 
   std::vector<std::string> overrides; ///< --set key=value, in order

@@ -19,9 +19,12 @@ bool is_ours(const fs::path& folder) {
        {"summary.json", "quality.json", "cloud.vtp", "fields.pvd", "compare.json", "hyperbolicity.json"})
     if (fs::exists(folder / name))
       return true;
-  std::ifstream stored(folder / "case.toml");
-  std::string line;
-  return std::getline(stored, line) && line.starts_with(signature);
+  for (const char* name : {"case.toml", "study.toml"}) {
+    std::ifstream stored(folder / name);
+    if (std::string line; std::getline(stored, line) && line.starts_with(signature))
+      return true;
+  }
+  return false;
 }
 
 } // namespace
@@ -48,14 +51,19 @@ RunFolder::~RunFolder() {
     fs::remove(path_, failed); // only where it is empty
 }
 
-void store_case(const Case& the_case, const std::vector<std::string>& overrides, const fs::path& folder) {
-  std::string header = fmt::format("{} {} from {}", signature, TESSERA_VERSION, the_case.path.string());
+void store_input(const fs::path& to, const fs::path& from, const std::vector<std::string>& overrides,
+                 const std::string& text) {
+  std::string header = fmt::format("{} {} from {}", signature, TESSERA_VERSION, from.string());
   for (const std::string& assignment : overrides)
     header += " --set " + assignment;
   for (char& c : header)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       c = ' ';
-  io::write_text(folder / "case.toml", header + "\n" + the_case.text);
+  io::write_text(to, header + "\n" + text);
+}
+
+void store_case(const Case& the_case, const std::vector<std::string>& overrides, const fs::path& folder) {
+  store_input(folder / "case.toml", the_case.path, overrides, the_case.text);
 }
 
 void remove_solution(const fs::path& folder) {

@@ -33,6 +33,11 @@ class RunFolder {
 void store_case(const Case& the_case, const std::vector<std::string>& overrides,
                 const std::filesystem::path& folder);
 
+/// Writes `text` under a line that says which version wrote it from which file with which overrides, and by
+/// which the folder is known as ours.
+void store_input(const std::filesystem::path& to, const std::filesystem::path& from,
+                 const std::vector<std::string>& overrides, const std::string& text);
+
 /// Removes what an earlier run left: its results do not belong to what is computed next.
 void remove_solution(const std::filesystem::path& folder);
 /// The same with the particles.

@@ -2,6 +2,7 @@
 
 #include "app/run_folder.hpp"
 #include "app/summary.hpp"
+#include "core/cost.hpp"
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "io/atomic_file.hpp"
@@ -104,8 +105,12 @@ void begin_results(const Case& the_case, const Options& options, const preproces
   io::write_text(folder / "quality.json", preprocess::to_json(prepared.quality));
 }
 
+double spent_so_far() {
+  return cpu_seconds() + cpu_seconds_of_children();
+}
+
 Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const fs::path& folder,
-                         Console& console) {
+                         double spent_seconds, Console& console) {
   require_places(the_case, cloud);
   const solver::SceneSpec scene = scene_with_surfaces(the_case, console);
   io::FrameSeries series(folder);
@@ -131,6 +136,7 @@ Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const
         fmt::format("draw them with: tessera post {}; solve anew with: tessera solve {} -o {}",
                     shell_word(folder), shell_word(folder / "case.toml"), shell_word(folder)));
   }
+  solution.summary.setup_seconds += spent_seconds;
   solution.json = summary_json(the_case, cloud, solution.summary);
   io::write_text(folder / "summary.json", solution.json);
   return solution;

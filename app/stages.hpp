@@ -35,12 +35,16 @@ void begin_results(const Case& the_case, const Options& options, const preproces
 
 /// Runs the solver: history.csv, fields.pvd, fields/, summary.json. Returns the text of summary.json.
 /// A run that fails or is interrupted leaves its frames and history, no summary, and a RunError that says so.
+/// `spent_seconds`: processor time its particles took, for the summary's setup_seconds.
 struct Solution {
   solver::Summary summary;
   std::string json;
 };
 Solution solve_particles(const Case& the_case, const ParticleCloud& cloud,
-                         const std::filesystem::path& folder, Console& console);
+                         const std::filesystem::path& folder, double spent_seconds, Console& console);
+
+/// Processor time of the program so far with that of the importer's processes.
+double spent_so_far();
 
 /// The case's pictures, the plots and report.md from what the folder holds. Returns the files written.
 std::vector<std::filesystem::path> draw_results(const Case& the_case, const std::filesystem::path& folder,

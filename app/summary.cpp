@@ -1,5 +1,6 @@
 #include "app/summary.hpp"
 
+#include "core/cost.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 
@@ -76,6 +77,9 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
   json["step"] = step_json(s.step);
   json["wall_seconds"] = s.wall_seconds;
   json["us_per_particle_step"] = s.us_per_particle_step;
+  json["cpu_seconds"] = s.cpu_seconds;
+  json["setup_seconds"] = s.setup_seconds;
+  json["peak_bytes"] = peak_memory();
   json["threads"] = s.threads;
   json["bytes_per_particle"] = s.bytes_per_particle;
   json["volume_sum"] =

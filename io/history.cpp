@@ -112,11 +112,14 @@ History read_history(const fs::path& file) {
                      "run the case first: 'tessera run CASE.toml -o DIR' writes it");
   History history;
   std::string line;
-  require(static_cast<bool>(std::getline(in, line)) && !in.eof(), "the history has no line of column names",
-          file.string(), "run the case again");
+  int number = 1;
+  while (std::getline(in, line) && line.starts_with('#'))
+    ++number;
+  require(in.good(), "the history has no line of column names", file.string(), "run the case again");
   history.names = split(line);
   history.columns.resize(history.names.size());
-  for (int number = 2; std::getline(in, line) && !in.eof(); ++number) {
+  while (std::getline(in, line) && !in.eof()) {
+    ++number;
     if (line.empty())
       continue;
     const auto values = numbers(line, history.names.size());

@@ -27,6 +27,7 @@ struct History {
   /// InputError naming the columns there are when `name` is not one of them.
   const std::vector<double>& column(const std::string& name) const;
 };
+/// Lines before the names that begin with '#' are comments.
 History read_history(const std::filesystem::path& file);
 
 } // namespace tessera::io

@@ -41,12 +41,17 @@ struct Drawing {
 };
 
 /// One curve, points where `dots`, or columns standing on zero where `bars` (x evenly spaced).
+/// Without a label it is left out of the legend, without points only there.
 struct Curve {
+  static constexpr int by_place = -1, grey = 7;
+
   std::string label;
   std::vector<double> x, y;
   bool dots = false;
   bool dashed = false;
   bool bars = false;
+  int colour = by_place; ///< number of the palette's colour; curves of one chart otherwise take them in turn
+  int marker = 0;        ///< of dots: circle, square, diamond, plus, cross, in turn
 };
 
 struct Chart {

@@ -44,7 +44,9 @@ json of(const Chart& chart) {
                       {"y", curve.y},
                       {"dots", curve.dots},
                       {"dashed", curve.dashed},
-                      {"bars", curve.bars}});
+                      {"bars", curve.bars},
+                      {"colour", curve.colour},
+                      {"marker", curve.marker}});
   return {{"title", chart.title}, {"x_title", chart.x_title}, {"y_title", chart.y_title},
           {"log_x", chart.log_x}, {"log_y", chart.log_y},     {"curves", curves}};
 }
@@ -64,7 +66,8 @@ Chart chart_of(const json& value) {
               value.at("log_x"), value.at("log_y"),   {}};
   for (const json& curve : value.at("curves"))
     chart.curves.push_back({curve.at("label"), numbers(curve.at("x")), numbers(curve.at("y")),
-                            curve.at("dots"), curve.at("dashed"), curve.at("bars")});
+                            curve.at("dots"), curve.at("dashed"), curve.at("bars"), curve.at("colour"),
+                            curve.at("marker")});
   return chart;
 }
 

@@ -15,25 +15,27 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;
 
-fs::path case_file(const fs::path& given) {
+fs::path file_of(const fs::path& given, const std::string& kind) {
   std::error_code failed;
   if (!fs::is_directory(given, failed))
     return given;
-  const fs::path inside = given / "case.toml";
-  require(fs::exists(inside, failed), "the case is a folder without a case.toml", given.string(),
-          "give the case file itself");
+  const fs::path inside = given / (kind + ".toml");
+  require(fs::exists(inside, failed), fmt::format("the {0} is a folder without a {0}.toml", kind),
+          given.string(), fmt::format("give the {} file itself", kind));
   return inside;
 }
 
-std::string read_text(const fs::path& file) {
+std::string read_text(const fs::path& file, const std::string& kind) {
   std::ifstream in(file, std::ios::binary);
-  require(in.good(), "cannot open the case file", file.string(), "check the path and that it may be read");
+  require(in.good(), fmt::format("cannot open the {} file", kind), file.string(),
+          "check the path and that it may be read");
   std::string text(largest_file + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
-  require(!in.bad(), "cannot read the case file", file.string(), "check that it is a text file");
-  require(text.size() <= largest_file, "the case file is larger than 1 MiB", file.string(),
-          "give a TOML case, not a mesh or a cloud");
+  require(!in.bad(), fmt::format("cannot read the {} file", kind), file.string(),
+          "check that it is a text file");
+  require(text.size() <= largest_file, fmt::format("the {} file is larger than 1 MiB", kind), file.string(),
+          fmt::format("give a TOML {}, not a mesh or a cloud", kind));
   return text;
 }
 
@@ -105,8 +107,9 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}{}'", shown, text.size() > longest ? "..." : "");
 }
 
-Document::Document(const fs::path& file, const std::vector<std::string>& overrides) : file_(case_file(file)) {
-  root_ = parse(read_text(file_), file_.string());
+Document::Document(const fs::path& file, const std::vector<std::string>& overrides, const std::string& kind)
+    : kind_(kind), file_(file_of(file, kind)) {
+  root_ = parse(read_text(file_, kind), file_.string());
   for (const std::string& assignment : overrides)
     override_key(assignment);
 }

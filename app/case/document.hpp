@@ -13,12 +13,14 @@ namespace tessera::app {
 
 class Document {
  public:
-  /// Reads at most 1 MiB. InputError when the file cannot be read or is not TOML, or an override does not fit
-  /// it.
-  Document(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+  /// Reads at most 1 MiB of `file`, or of file/KIND.toml where it is a folder. InputError when the file
+  /// cannot be read or is not TOML, or an override does not fit it.
+  Document(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+           const std::string& kind = "case");
 
   const toml::table& root() const { return root_; }
   const std::filesystem::path& file() const { return file_; }
+  const std::string& kind() const { return kind_; }
 
   /// Where the value of a dotted key ("wall.0.restitution") was written: "file:line:column", or the override
   /// that set it. The nearest enclosing table where the key itself is absent.
@@ -33,6 +35,7 @@ class Document {
   std::string override_of(std::string_view path) const;
   std::string position(const toml::source_region& region) const;
 
+  std::string kind_;
   std::filesystem::path file_;
   toml::table root_;
   std::map<std::string, std::string, std::less<>> overrides_; ///< dotted key -> the argument that set it

@@ -342,7 +342,8 @@ void Table::finish() const {
       throw InputError(
           fmt::format("unknown key {}", in_quotes(path_of(name))), document_->where_key(path_of(name)),
           fmt::format("{}keys {}: {}", did_you_mean(name, declared_),
-                      path_.empty() ? "of a case" : fmt::format("in {}", path_), fmt::join(declared_, ", ")));
+                      path_.empty() ? fmt::format("of a {}", document_->kind()) : fmt::format("in {}", path_),
+                      fmt::join(declared_, ", ")));
   }
   if (!missing_.empty())
     throw InputError(fmt::format("missing key '{}'", path_of(missing_.front())), document_->where(path_),

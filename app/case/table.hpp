@@ -69,6 +69,18 @@ class Table {
   /// [[key]]: none, one or many.
   std::vector<Table> tables(const std::string& key);
 
+  /// A plain value as TOML writes it, and as people read it.
+  struct Literal {
+    std::string toml, plain;
+  };
+  /// A list of one or more values none of which is a table; one that stands alone counts as a list.
+  std::vector<Literal> literals(const std::string& key);
+  /// What the table holds beside the keys asked for so far, as assignments "key.key=value": what a Document
+  /// takes as overrides. finish() then has nothing more to complain about.
+  std::vector<std::string> assignments();
+  /// The names of all keys.
+  std::vector<std::string> keys() const;
+
   /// A key somebody else may ask for: finish() lets it pass.
   void allow(const std::string& key) { declared_.push_back(key); }
 

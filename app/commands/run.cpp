@@ -16,10 +16,14 @@ void run(const Options& options) {
   const std::filesystem::path& folder = place.path();
   console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
   const preprocess::Prepared prepared = prepare_particles(the_case, options.cells, console);
+  const double spent = spent_so_far();
   begin_results(the_case, options, prepared, folder, options.cells);
-  post::draw_cloud(folder, console.progress(), &prepared.cells);
-  const Solution solution = solve_particles(the_case, prepared.cloud, folder, console);
-  const auto drawn = draw_results(the_case, folder, console);
+  if (options.pictures)
+    post::draw_cloud(folder, console.progress(), &prepared.cells);
+  const Solution solution = solve_particles(the_case, prepared.cloud, folder, spent, console);
+  std::vector<std::filesystem::path> drawn;
+  if (options.pictures)
+    drawn = draw_results(the_case, folder, console);
   console.result(describe(the_case, solution.summary, folder, drawn), solution.json);
 }
 

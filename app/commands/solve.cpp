@@ -27,6 +27,7 @@ void solve(const Options& options) {
   const RunFolder place(folder);
   console.progress().note(fmt::format("{}: writing to {}", the_case.title, folder.string()));
 
+  double spent = spent_so_far();
   if (cloud) {
     console.progress().note(
         fmt::format("particles from {}", (named ? options.cloud : folder / "cloud.vtp").string()));
@@ -36,11 +37,12 @@ void solve(const Options& options) {
       io::write_cloud(*cloud, folder / "cloud.vtp");
   } else {
     preprocess::Prepared prepared = prepare_particles(the_case, false, console);
+    spent = spent_so_far();
     begin_results(the_case, options, prepared, folder, false);
     post::draw_cloud(folder, console.progress(), &prepared.cells);
     cloud = std::move(prepared.cloud);
   }
-  const Solution solution = solve_particles(the_case, *cloud, folder, console);
+  const Solution solution = solve_particles(the_case, *cloud, folder, spent, console);
   console.result(describe(the_case, solution.summary, folder, {}), solution.json);
 }
 

@@ -105,7 +105,11 @@ void Canvas::line(Pixel from, Pixel to, Colour colour, double thickness) {
 }
 
 void Canvas::rectangle(Pixel lower, Pixel upper, Colour fill) {
-  overlay_->AddViewProp(shape({lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}, true, fill, 1));
+  polygon({lower, {upper.x, lower.y}, upper, {lower.x, upper.y}}, fill);
+}
+
+void Canvas::polygon(const std::vector<Pixel>& corners, Colour fill) {
+  overlay_->AddViewProp(shape(corners, true, fill, 1));
 }
 
 void Canvas::save(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 class vtkRenderWindow;
 class vtkRenderer;
@@ -45,6 +46,7 @@ class Canvas {
   void text(Pixel at, const std::string& words, const TextStyle& style = {});
   void line(Pixel from, Pixel to, Colour colour, double thickness);
   void rectangle(Pixel lower, Pixel upper, Colour fill);
+  void polygon(const std::vector<Pixel>& corners, Colour fill);
 
   /// Draws everything and writes the PNG; RunError when the disk refuses.
   void save(const std::filesystem::path& file);

@@ -20,8 +20,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 namespace tessera::post {
 namespace {
@@ -109,11 +112,21 @@ vtkSmartPointer<vtkTable> table_of(const Curve& curve, const Chart& chart) {
   return table;
 }
 
+Colour colour_of(const Curve& curve, int index) {
+  return curve_colour(curve.colour == Curve::by_place ? index : curve.colour);
+}
+
+int marker_of(const Curve& curve) {
+  constexpr std::array styles{vtkPlotPoints::CIRCLE, vtkPlotPoints::SQUARE, vtkPlotPoints::DIAMOND,
+                              vtkPlotPoints::PLUS, vtkPlotPoints::CROSS};
+  return styles[static_cast<std::size_t>(curve.marker) % styles.size()];
+}
+
 void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int index) {
   const auto table = table_of(curve, spec);
   if (table->GetNumberOfRows() == 0)
     return;
-  const Colour colour = curve_colour(index);
+  const Colour colour = colour_of(curve, index);
   vtkPlot* plot = chart.AddPlot(curve.bars ? vtkChart::BAR : curve.dots ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
   plot->SetColor(colour[0], colour[1], colour[2], 255);
@@ -126,26 +139,61 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
   plot->SetWidth(curve.dots ? 11.0f : 3.5f);
   plot->GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot); points && curve.dots)
-    points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
+    points->SetMarkerStyle(marker_of(curve));
+}
+
+/// As the chart draws it.
+void draw_marker(Canvas& canvas, Pixel at, int style, Colour colour) {
+  constexpr double reach = 9;
+  const auto turned = [&](int corners, double first) {
+    std::vector<Pixel> ring;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = first + 2 * std::numbers::pi * i / corners;
+      ring.push_back({at.x + reach * std::cos(angle), at.y + reach * std::sin(angle)});
+    }
+    return ring;
+  };
+  const auto stroke = [&](double x, double y) {
+    canvas.line({at.x - x, at.y - y}, {at.x + x, at.y + y}, colour, 4);
+  };
+  switch (style) {
+  case vtkPlotPoints::SQUARE:
+    return canvas.polygon(turned(4, std::numbers::pi / 4), colour);
+  case vtkPlotPoints::DIAMOND:
+    return canvas.polygon(turned(4, 0), colour);
+  case vtkPlotPoints::PLUS:
+    stroke(reach, 0);
+    return stroke(0, reach);
+  case vtkPlotPoints::CROSS:
+    stroke(0.7 * reach, 0.7 * reach);
+    return stroke(0.7 * reach, -0.7 * reach);
+  default:
+    return canvas.polygon(turned(24, 0), colour);
+  }
 }
 
 /// Names of the curves to the right of the chart, where they hide nothing.
 void draw_legend(Canvas& canvas, const Chart& chart, double top, double height) {
   const double left = width - legend_width + 20;
-  const double step = std::min(44.0, height / static_cast<double>(chart.curves.size()));
+  const auto named = std::count_if(chart.curves.begin(), chart.curves.end(),
+                                   [](const Curve& curve) { return !curve.label.empty(); });
+  const double step = std::min(44.0, height / static_cast<double>(std::max<std::ptrdiff_t>(named, 1)));
   const int size = std::clamp(static_cast<int>(0.7 * step), 10, 25);
   double y = top - 110;
-  for (std::size_t c = 0; c < chart.curves.size(); ++c, y -= step) {
+  for (std::size_t c = 0; c < chart.curves.size(); ++c) {
     const Curve& curve = chart.curves[c];
-    const Colour colour = curve_colour(static_cast<int>(c));
+    if (curve.label.empty())
+      continue;
+    const Colour colour = colour_of(curve, static_cast<int>(c));
     if (curve.dots)
-      canvas.rectangle({left + 20, y - 7}, {left + 34, y + 7}, colour);
+      draw_marker(canvas, {left + 27, y}, marker_of(curve), colour);
     else if (curve.dashed)
       for (const double part : {0.0, 22.0, 44.0})
         canvas.line({left + part, y}, {left + part + 12, y}, colour, 5);
     else
       canvas.line({left, y}, {left + 54, y}, colour, 5);
     canvas.text({left + 70, y}, curve.label, {.size = size, .width = legend_width - 100.0});
+    y -= step;
   }
 }
 

@@ -2,6 +2,7 @@
 /// instantiates them.
 #pragma once
 
+#include "core/cost.hpp"
 #include "core/interrupt.hpp"
 #include "solver/scene/assemble.hpp"
 #include "solver/scene/reporter.hpp"
@@ -23,18 +24,20 @@ inline StepChoice step_choice(const StepBounds& bounds) {
   return {bounds.by_wave, bounds.critical, bounds.critical_binds ? "critical" : "wave"};
 }
 
+/// `began`: cpu_seconds() before anything was set up.
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
-                     Progress& progress, Assembly<Body>& assembly) {
+                     Progress& progress, Assembly<Body>& assembly, double began) {
   auto& body = assembly.body;
   auto& step = *assembly.step;
   auto& limit = assembly.limit;
   double dt = limit(body);
   const StepBounds bounds = limit.bounds(body);
   step.start(body, dt);
+  Summary summary;
+  summary.setup_seconds = cpu_seconds() - began;
   Reporter<Body> reporter(scene, cloud, outputs, assembly);
 
-  Summary summary;
   summary.formulation = Body::Formulation::name;
   summary.scheme = scene.scheme;
   summary.dissipation = Body::dissipates ? chosen_dissipation(scene) : "none";
@@ -50,6 +53,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   const double start = seconds_now();
   progress.begin("solve", scene.end_time);
   while (time < scene.end_time) {
+    const double step_began = cpu_seconds();
     dt = limit(body);
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
@@ -73,6 +77,7 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
     }
     time = last ? scene.end_time : time + dt;
     ++summary.steps;
+    summary.cpu_seconds += cpu_seconds() - step_began;
     reporter.after_step(time, summary.steps, dt);
     progress.advance(time, fmt::format("step {}, dt {:.3g} s", summary.steps, dt));
     if (interrupted()) {
@@ -181,8 +186,10 @@ Forecast forecast_assembly(const SceneSpec& scene, Assembly<Body>& assembly) {
 template <class Formulation>
 Summary run_formulation(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                         Progress& progress) {
-  return with_assembly<Formulation>(
-      scene, cloud, [&](auto& assembly) { return run_assembly(scene, cloud, outputs, progress, assembly); });
+  const double began = cpu_seconds();
+  return with_assembly<Formulation>(scene, cloud, [&](auto& assembly) {
+    return run_assembly(scene, cloud, outputs, progress, assembly, began);
+  });
 }
 
 template <class Formulation>

@@ -177,6 +177,8 @@ struct Summary {
   double time = 0, dt_min = 0, dt_max = 0; ///< s
   StepChoice step;
   double wall_seconds = 0, us_per_particle_step = 0;
+  double cpu_seconds = 0;   ///< processor time of the steps, all threads together, without what is written
+  double setup_seconds = 0; ///< processor time before the first step
   int threads = 0;
   double bytes_per_particle = 0;
   Energies energy;

@@ -79,38 +79,29 @@ TEST(Output, RunWritesWhatItPromises) {
     EXPECT_TRUE(fs::exists(place / "out" / name)) << name;
 
   const Json summary = Json::parse(place.read("out/summary.json"));
-  for (const char* key : {"case",
-                          "version",
-                          "formulation",
-                          "scheme",
-                          "arrangement",
-                          "subvolumes",
-                          "seed",
-                          "dimension",
-                          "particles",
-                          "neighbours_mean",
-                          "support",
-                          "spacing",
-                          "steps",
-                          "time",
-                          "dt_min",
-                          "dt_max",
-                          "step",
-                          "wall_seconds",
-                          "us_per_particle_step",
-                          "threads",
-                          "bytes_per_particle",
-                          "volume_sum",
-                          "energy",
-                          "momentum",
-                          "max",
-                          "min",
-                          "extent_min",
-                          "extent_max",
-                          "probes"})
+  for (const char* key : {"case",        "version",
+                          "formulation", "scheme",
+                          "arrangement", "subvolumes",
+                          "seed",        "dimension",
+                          "particles",   "neighbours_mean",
+                          "support",     "spacing",
+                          "steps",       "time",
+                          "dt_min",      "dt_max",
+                          "step",        "wall_seconds",
+                          "cpu_seconds", "setup_seconds",
+                          "peak_bytes",  "us_per_particle_step",
+                          "threads",     "bytes_per_particle",
+                          "volume_sum",  "energy",
+                          "momentum",    "max",
+                          "min",         "extent_min",
+                          "extent_max",  "probes"})
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["particles"], 225);
   EXPECT_EQ(summary["threads"], 2);
+  EXPECT_GT(summary["cpu_seconds"], 0);
+  EXPECT_GT(summary["setup_seconds"], summary["cpu_seconds"]) << "a CAD import, and few steps";
+  EXPECT_GT(summary["peak_bytes"], 10e6);
+  EXPECT_LT(summary["peak_bytes"], 1e9);
   EXPECT_NEAR(summary["volume_sum"].get<double>(), 2e-6, 1e-18);
   EXPECT_NEAR(summary["time"].get<double>(), 5e-6, 1e-18);
   EXPECT_LT(summary["probes"]["length_m"].get<double>(), 0.02) << "the bar is shortened by the impact";

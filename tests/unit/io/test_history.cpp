@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace tessera::io {
@@ -29,6 +30,16 @@ TEST(History, RoundTripKeepsEveryBit) {
   EXPECT_EQ(tip[0], 1e-300);
   EXPECT_TRUE(std::isinf(tip[1]));
   EXPECT_TRUE(std::isnan(tip[2]));
+}
+
+TEST(History, CommentsBeforeTheNamesArePassedOver) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "reference.csv") << "# measured\n# by hand\ntime_s,radius_m\n0,1\n1,2\n";
+  const History history = read_history(folder / "reference.csv");
+  EXPECT_EQ(history.names, (std::vector<std::string>{"time_s", "radius_m"}));
+  EXPECT_EQ(history.column("radius_m"), (std::vector<double>{1, 2}));
+  std::ofstream(folder / "comments.csv") << "# nothing else\n";
+  EXPECT_THROW(read_history(folder / "comments.csv"), InputError);
 }
 
 TEST(History, AnUnfinishedLastRowIsLeftOut) {

@@ -24,7 +24,8 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   drawing.cloud = true;
   drawing.panels = {{"f.vtu", "label", NAN, 0.1, "y", "c.vtu"}};
   job.drawings = {drawing};
-  job.plots = {{"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true}}}}, true}};
+  job.plots = {
+      {"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true, 3, 2}}}}, true}};
   const RenderJob read = render_job_from_json(to_json(job));
   const Drawing& d = read.drawings.at(0);
   EXPECT_EQ(d.file, drawing.file);
@@ -47,6 +48,8 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   EXPECT_TRUE(chart.curves.at(0).bars);
   EXPECT_TRUE(read.plots.at(0).beside);
   EXPECT_TRUE(chart.curves.at(0).dots);
+  EXPECT_EQ(chart.curves.at(0).colour, 3);
+  EXPECT_EQ(chart.curves.at(0).marker, 2);
 }
 
 TEST(RenderJob, OtherTextIsRefused) {

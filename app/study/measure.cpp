@@ -1,0 +1,151 @@
+#include "app/study/measure.hpp"
+
+#include "app/study/stored_summary.hpp"
+#include "core/error.hpp"
+#include "io/cloud_file.hpp"
+#include "io/field_series.hpp"
+#include "io/history.hpp"
+#include "solver/operators/sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tessera::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Of the finer run's particles: more would only take longer.
+constexpr std::size_t most_points = 2000;
+
+TimeSeries series(const io::History& history, const std::string& time, const std::string& column) {
+  return {history.column(time), history.column(column)};
+}
+
+TimeSeries series(const ErrorMeasure::History& given) {
+  TimeSeries truth;
+  try {
+    truth = series(io::read_history(given.file), given.time_column, given.column);
+  } catch (const InputError& e) {
+    throw InputError(e.what(), fmt::format("error.history of the study, {}", given.file.string()), "");
+  }
+  for (double& t : truth.time)
+    t *= given.time_factor;
+  for (double& v : truth.value)
+    v *= given.factor;
+  return truth;
+}
+
+double interpolated(const TimeSeries& s, double t) {
+  const auto after = std::upper_bound(s.time.begin(), s.time.end(), t) - s.time.begin();
+  const auto b = std::min(static_cast<std::size_t>(after), s.time.size() - 1), a = b > 0 ? b - 1 : 0;
+  const double width = s.time[b] - s.time[a];
+  return width > 0 ? s.value[a] + (s.value[b] - s.value[a]) * (t - s.time[a]) / width : s.value[b];
+}
+
+struct Sampled {
+  double difference = 0, truth = 0; ///< squares times volumes
+  std::size_t points = 0;
+};
+
+template <int D>
+Sampled sample(const ParticleCloud& cloud, const std::vector<double>& values, const ParticleCloud& fine,
+               const std::vector<double>& true_values) {
+  const std::size_t components = true_values.size() / fine.X.size();
+  const std::size_t stride = fine.X.size() / most_points + 1;
+  Sampled result;
+  for (std::size_t i = 0; i < fine.X.size(); i += stride) {
+    std::optional<solver::Sampling> sampling;
+    try {
+      sampling = solver::build_sampling<D>(fine.X[i], cloud.X, cloud.V, cloud.hidden);
+    } catch (const InputError&) {
+      continue; // outside of a coarse cloud that does not fill the body's curves
+    }
+    ++result.points;
+    for (std::size_t c = 0; c < components; ++c) {
+      const double v =
+          (*sampling)([&](std::int32_t b) { return values[static_cast<std::size_t>(b) * components + c]; });
+      const double truth = true_values[i * components + c];
+      result.difference += fine.V[i] * (v - truth) * (v - truth);
+      result.truth += fine.V[i] * truth * truth;
+    }
+  }
+  return result;
+}
+
+} // namespace
+
+double history_error(const TimeSeries& run, const TimeSeries& truth, ErrorMeasure::Norm norm) {
+  require(!run.time.empty() && run.time.size() == run.value.size(), "the run's history is empty", "", "");
+  const double slack = 1e-9 * std::abs(run.time.back());
+  double worst = 0, scale = 0, squares = 0, true_squares = 0, last = 0, last_truth = 0;
+  double t_before = 0, d_before = 0, v_before = 0;
+  int used = 0;
+  for (std::size_t i = 0; i < truth.time.size(); ++i) {
+    const double t = truth.time[i], v = truth.value[i];
+    if (t < run.time.front() - slack || t > run.time.back() + slack)
+      continue;
+    const double d = interpolated(run, std::clamp(t, run.time.front(), run.time.back())) - v;
+    if (!std::isfinite(d))
+      return std::numeric_limits<double>::quiet_NaN();
+    worst = std::max(worst, std::abs(d));
+    scale = std::max(scale, std::abs(v));
+    if (used++ > 0) {
+      squares += 0.5 * (d * d + d_before * d_before) * (t - t_before);
+      true_squares += 0.5 * (v * v + v_before * v_before) * (t - t_before);
+    }
+    t_before = t, d_before = d, v_before = v;
+    last = std::abs(d), last_truth = std::abs(v);
+  }
+  require(used >= 2, "the reference's times lie outside of the run's", "",
+          "check its time column and factor");
+  switch (norm) {
+  case ErrorMeasure::Norm::worst:
+    return worst / scale;
+  case ErrorMeasure::Norm::rms:
+    return std::sqrt(squares / true_squares);
+  default:
+    return last / last_truth;
+  }
+}
+
+Measure::Measure(const ErrorMeasure& measure, std::string column, const fs::path& finer)
+    : measure_(measure), column_(std::move(column)), finer_(finer) {
+  if (measure.history)
+    truth_ = series(*measure.history);
+  else if (measure.of == ErrorMeasure::Of::probe && measure.finer)
+    truth_ = series(io::read_history(finer / "history.csv"), "time_s", column_);
+}
+
+double Measure::operator()(const fs::path& folder) const {
+  if (measure_.of == ErrorMeasure::Of::closed_form)
+    return StoredSummary(folder).number(fmt::format("/error/l2_{}_relative", measure_.name));
+  if (measure_.of == ErrorMeasure::Of::field)
+    return of_field(folder);
+  if (measure_.value)
+    return std::abs(StoredSummary(folder).number("/probes/" + column_) - *measure_.value) /
+           std::abs(*measure_.value);
+  return history_error(series(io::read_history(folder / "history.csv"), "time_s", column_), *truth_,
+                       measure_.norm);
+}
+
+double Measure::of_field(const fs::path& folder) const {
+  const std::string field = measure_.name == "displacement" ? "Displacement"
+                            : measure_.name == "velocity"   ? "Velocity"
+                                                            : "Pressure";
+  const auto values = [&](const fs::path& of) {
+    return io::read_field(io::read_series(of).back().file, field);
+  };
+  const ParticleCloud cloud = io::read_cloud(folder / "cloud.vtp"),
+                      fine = io::read_cloud(finer_ / "cloud.vtp");
+  const Sampled sampled = fine.dimension == 3 ? sample<3>(cloud, values(folder), fine, values(finer_))
+                                              : sample<2>(cloud, values(folder), fine, values(finer_));
+  require(sampled.points > 0, "none of the finer run's particles lies in the body of this one",
+          folder.string(), "let [error.finer] keep the geometry");
+  return std::sqrt(sampled.difference / sampled.truth);
+}
+
+} // namespace tessera::app

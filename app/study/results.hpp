@@ -1,0 +1,60 @@
+/// What a study came to: a row a run, what is worth its cost, and the files that say so.
+#pragma once
+
+#include "app/study/plan.hpp"
+#include "app/study/run_store.hpp"
+#include "core/progress.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tessera::app {
+
+/// NaN where a run has none.
+struct Row {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+  std::vector<std::string> labels;
+  std::string id;
+  double error = none;         ///< relative
+  double cpu_seconds = none;   ///< of the steps
+  double setup_seconds = none; ///< before them, processor time too
+  double peak_bytes = none;
+  double particles = none, steps = none;
+  std::string failure; ///< why there are none; "not run" when it has not been yet
+};
+
+struct Recommendation {
+  double target;      ///< relative error
+  std::ptrdiff_t row; ///< the cheapest that keeps to it; -1: none does
+};
+
+struct Results {
+  std::vector<Row> rows;
+  std::vector<std::size_t> front; ///< of `rows`, by rising cost
+  std::vector<Recommendation> recommendations;
+};
+
+/// Reads what the store holds. `passing`: by id, why runs failed that the store does not keep as failures.
+Results collect_results(const Study& study, const Plan& plan, const RunStore& store,
+                        const std::map<std::string, std::string>& passing);
+
+/// "error of the velocity", "error of the probe tip".
+std::string error_words(const Study& study);
+
+/// "for 1 % ...: ... costs ... s", one line a target.
+std::string recommendations_text(const Study& study, const Results& results);
+
+std::string results_csv(const Study& study, const Results& results);
+std::string results_json(const Study& study, const Results& results);
+std::string results_markdown(const Study& study, const Results& results, bool picture);
+
+/// pareto.png; false where it could not be drawn, with a note that says why.
+bool draw_pareto(const Study& study, const Results& results, const std::filesystem::path& folder,
+                 Progress& progress);
+
+} // namespace tessera::app

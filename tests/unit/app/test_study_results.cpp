@@ -1,0 +1,141 @@
+#include "app/study/measure.hpp"
+#include "app/study/pareto.hpp"
+#include "app/study/results.hpp"
+#include "core/error.hpp"
+#include "tests/unit/app/case_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace tessera::app {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Pareto, FrontIsWhatNoneBeats) {
+  const std::vector<CostAndError> runs{{1, 0.5}, {2, 0.6}, {2, 0.1},  {3, 0.1},
+                                       {nan, 0}, {4, nan}, {5, 0.01}, {1, 0.7}};
+  EXPECT_EQ(pareto_front(runs), (std::vector<std::size_t>{0, 2, 6}));
+  EXPECT_EQ(cheapest_within(runs, 0.5), 0U);
+  EXPECT_EQ(cheapest_within(runs, 0.2), 2U);
+  EXPECT_EQ(cheapest_within(runs, 0.001), std::nullopt);
+  EXPECT_TRUE(pareto_front({}).empty());
+  const std::vector<CostAndError> alike{{1, 1}, {1, 1}};
+  EXPECT_EQ(pareto_front(alike), std::vector<std::size_t>{0});
+}
+
+TEST(Pareto, FrontOfManyAgreesWithItsDefinition) {
+  std::mt19937 random(5);
+  std::vector<CostAndError> runs;
+  for (int i = 0; i < 300; ++i)
+    runs.push_back({static_cast<double>(random() % 50), static_cast<double>(random() % 50)});
+  const std::vector<std::size_t> front = pareto_front(runs);
+  const auto beats = [](const CostAndError& a, const CostAndError& b) {
+    return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+  };
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    bool beaten = false, stands_for = false;
+    for (const CostAndError& other : runs)
+      beaten |= beats(other, runs[i]);
+    for (const std::size_t f : front)
+      stands_for |= runs[f].cost == runs[i].cost && runs[f].error == runs[i].error;
+    EXPECT_EQ(stands_for, !beaten) << i;
+  }
+}
+
+TEST(HistoryError, LargestRootMeanSquareAndLast) {
+  // Truth sin(t) on [0, pi]; the run is 0.1 (1 + t) off and has other times.
+  TimeSeries truth, run;
+  for (int i = 0; i <= 2000; ++i) {
+    truth.time.push_back(3.2 * i / 2000);
+    truth.value.push_back(std::sin(truth.time.back()));
+  }
+  for (int i = 0; i <= 1500; ++i) {
+    run.time.push_back(3 * i / 1500.0);
+    run.value.push_back(std::sin(run.time.back()) + 0.1 * (1 + run.time.back()));
+  }
+  EXPECT_NEAR(history_error(run, truth, ErrorMeasure::Norm::worst), 0.4, 1e-3);
+  // Integrals over [0, 3]: 0.01 ((1 + t)^3 / 3) and (t - sin t cos t) / 2.
+  const double squares = 0.01 * (64 - 1) / 3.0, norm = 0.5 * (3 - std::sin(3.0) * std::cos(3.0));
+  EXPECT_NEAR(history_error(run, truth, ErrorMeasure::Norm::rms), std::sqrt(squares / norm), 1e-3);
+  EXPECT_NEAR(history_error(run, truth, ErrorMeasure::Norm::end), 0.4 / std::sin(3.0), 0.02);
+}
+
+TEST(HistoryError, TimesThatDoNotMeetAreRefused) {
+  const TimeSeries run{{0, 1}, {0, 1}}, later{{2, 3}, {1, 1}};
+  EXPECT_THROW(history_error(run, later, ErrorMeasure::Norm::worst), InputError);
+  const TimeSeries broken{{0, 1}, {0, nan}}, truth{{0, 1}, {1, 1}};
+  EXPECT_TRUE(std::isnan(history_error(broken, truth, ErrorMeasure::Norm::worst)));
+}
+
+/// A store with one finished run, one failed and one that was never run.
+class StudyResults : public testing::Test {
+ protected:
+  StudyResults() : store(folder.path()) {
+    study.title = "three";
+    study.axes = {{"size", {{"1", {}}, {"2, large", {}}, {"3", {}}}}};
+    study.colour = study.marker = "size";
+    study.error.name = "velocity";
+    study.error.targets = {0.1, 0.001};
+    for (const char* id : {"a", "b", "c"})
+      plan.runs.push_back({{study.axes[0].values[plan.runs.size()].label}, id, id, "", 1});
+    std::filesystem::create_directories(store.run("a"));
+    std::filesystem::create_directories(folder.path() / "cases");
+    folder.file("runs/a/summary.json", R"({"particles": 8, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
+      "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
+    store.keep_failure("b", "blew up");
+  }
+  CaseFolder folder;
+  RunStore store;
+  Study study;
+  Plan plan;
+};
+
+TEST_F(StudyResults, StoreKnowsWhatIsMissing) {
+  EXPECT_FALSE(store.missing("a"));
+  EXPECT_FALSE(store.missing("b"));
+  EXPECT_EQ(store.failure("b"), "blew up");
+  EXPECT_TRUE(store.missing("c"));
+  store.forget_failure("b");
+  EXPECT_TRUE(store.missing("b"));
+}
+
+TEST_F(StudyResults, FailedRunIsARow) {
+  const Results results = collect_results(study, plan, store, {{"c", "no memory"}});
+  ASSERT_EQ(results.rows.size(), 3U);
+  EXPECT_EQ(results.rows[0].error, 0.01);
+  EXPECT_EQ(results.rows[1].failure, "blew up");
+  EXPECT_EQ(results.rows[2].failure, "no memory");
+  EXPECT_EQ(results.front, std::vector<std::size_t>{0});
+  EXPECT_EQ(results_csv(study, results),
+            "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
+            "1,8,4,0.01,0.5,2,3000000,1,runs/a,\n"
+            "\"2, large\",,,,,,,0,runs/b,blew up\n"
+            "3,,,,,,,0,runs/c,no memory\n");
+  const std::string words = recommendations_text(study, results);
+  EXPECT_NE(
+      words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
+      std::string::npos)
+      << words;
+  EXPECT_NE(words.find("for 0.1 % velocity error: no run reaches it"), std::string::npos) << words;
+  const std::string report = results_markdown(study, results, true);
+  for (const char* piece :
+       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
+        "| size | 10 % | 0.1 % |\n|:--|:--|:--|\n| 1 | 0.5 s | - |\n| 2, large | - | - |"})
+    EXPECT_NE(report.find(piece), std::string::npos) << piece << "\n" << report;
+  const std::string json = results_json(study, results);
+  EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
+}
+
+TEST_F(StudyResults, DamagedSummaryIsARowToo) {
+  folder.file("runs/a/summary.json", "{");
+  const Results results = collect_results(study, plan, store, {});
+  EXPECT_NE(results.rows[0].failure.find("damaged"), std::string::npos) << results.rows[0].failure;
+  EXPECT_TRUE(results.front.empty());
+}
+
+} // namespace
+} // namespace tessera::app
