@@ -44,6 +44,8 @@ struct Grammar {
     CLI::App* check_command = add("check", "Validate a case and foretell its run; writes nothing", check);
     CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
 
+    CLI::App* stability_command = add(
+        "stability", "The largest stable step: of chapter 4's model, or of a case's operators", stability);
     CLI::App* materials_command =
         add("materials", "The laws a case can name, with their constants and sources", materials);
 
@@ -51,12 +53,15 @@ struct Grammar {
       command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
           ->type_name("CASE.toml")
           ->required();
+    stability_command->add_option("case", o.case_file, "Case file, or its folder; chapter 4's model without")
+        ->type_name("CASE.toml");
     post_command->add_option("folder", o.folders, "Folder of a run")
         ->type_name("DIR")
         ->required()
         ->expected(1);
     compare_command->add_option("folders", o.folders, "Folders of runs")->type_name("DIR")->required();
-    for (CLI::App* command : {run_command, prepare_command, solve_command, compare_command})
+    for (CLI::App* command :
+         {run_command, prepare_command, solve_command, compare_command, stability_command})
       command
           ->add_option("-o,--output", o.output,
                        "Folder to write to (unless given, runs/NAME with NAME from the case: its folder, and "
