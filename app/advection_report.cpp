@@ -1,5 +1,6 @@
 #include "app/advection_report.hpp"
 
+#include "app/complex_curve.hpp"
 #include "solver/time/advection.hpp"
 
 #include <fmt/format.h>
@@ -45,19 +46,6 @@ std::string fraction_text(double value) {
                               : fmt::format("{:g}/{}", std::round(numerator), denominator);
   }
   return fmt::format("{:.6g}", value);
-}
-
-/// A closed curve, the lower half the mirror image of the upper one.
-post::Curve closed(const std::string& label, const std::vector<Complex>& upper, bool dashed) {
-  post::Curve curve;
-  curve.label = label;
-  curve.dashed = dashed;
-  for (std::size_t i = 0; i < 2 * upper.size(); ++i) {
-    const Complex z = i < upper.size() ? upper[i] : std::conj(upper[2 * upper.size() - 1 - i]);
-    curve.x.push_back(z.real());
-    curve.y.push_back(z.imag());
-  }
-  return curve;
 }
 
 /// The upper half from `leftmost` on with its mirror image, in one line through the real axis.
@@ -278,11 +266,13 @@ std::vector<post::Plot> advection_plots(const std::filesystem::path& folder) {
   };
   eigenvalues.charts = {
       eigenvalue_chart("Eigenvalues times the step at courant 1/2, no dissipation: detail", 0, near(-0.03)),
-      eigenvalue_chart("Eigenvalues times the step at courant 1/2, dissipation 1/16", shown_kappa4, closed)};
+      eigenvalue_chart("Eigenvalues times the step at courant 1/2, dissipation 1/16", shown_kappa4,
+                       closed_curve)};
   amplification.file = file("amplification.png");
   amplification.charts = {
       amplification_chart("Amplification factors at courant 1/2, no dissipation: detail", 0, near(0.86)),
-      amplification_chart("Amplification factors at courant 1/2, dissipation 1/16", shown_kappa4, closed)};
+      amplification_chart("Amplification factors at courant 1/2, dissipation 1/16", shown_kappa4,
+                          closed_curve)};
   errors.file = file("errors.png");
   errors.charts = {
       error_chart("Amplitude after a step, no dissipation", "Over the exact", 0, dissipation_error),

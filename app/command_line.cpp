@@ -55,6 +55,11 @@ struct Grammar {
           ->required();
     stability_command->add_option("case", o.case_file, "Case file, or its folder; chapter 4's model without")
         ->type_name("CASE.toml");
+    stability_command
+        ->add_option("--stretch", o.stretch, "Principal stretches of the case's body along X, Y and Z")
+        ->type_name("L1,L2,L3")
+        ->delimiter(',')
+        ->expected(3);
     post_command->add_option("folder", o.folders, "Folder of a run")
         ->type_name("DIR")
         ->required()

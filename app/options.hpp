@@ -15,6 +15,7 @@ struct Options {
   std::filesystem::path cloud; ///< solve: particles stored earlier; empty: the output folder's own
   bool cells = false;          ///< run, prepare: also write the Voronoi cells
   bool hyperbolicity = false;  ///< materials: where their waves are real
+  std::vector<double> stretch; ///< stability: along X, Y and Z; empty: undeformed
 
   std::vector<std::string> overrides; ///< --set key=value, in order
   int threads = 0;                    ///< 0: all cores

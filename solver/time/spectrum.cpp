@@ -71,7 +71,7 @@ double symmetric_limit(const Linearised& body) {
 /// By bisection on the spectral radius of the step itself; growth over the body's unit of time.
 double limit_by_steps(const Linearised& body, double growth) {
   const auto bears = [&](double dt) {
-    return spectral_radius(verlet_step(body, dt)) <= 1 + tolerated_growth;
+    return std::log(spectral_radius(verlet_step(body, dt))) <= growth * dt + tolerated_growth;
   };
   // What the symmetric parts bear is a first guess.
   Linearised even{0.5 * (body.K + body.K.transpose()), 0.5 * (body.C + body.C.transpose()), {}, {}, {}, {}};

@@ -1,0 +1,137 @@
+#include "app/stability_report.hpp"
+
+#include "app/complex_curve.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using solver::Spectrum;
+using solver::StabilityFindings;
+
+double spectral_radius(const Spectrum& spectrum) {
+  double most = 0;
+  for (const auto& lambda : spectrum.eigenvalues)
+    most = std::max(most, std::abs(lambda));
+  return most;
+}
+
+bool is_heun(const StabilityFindings& findings) {
+  return findings.integrator == "heun";
+}
+
+std::string line(const std::string& what, const std::string& value) {
+  return fmt::format("  {:<31}{}\n", what, value);
+}
+
+std::string spectrum_text(const StabilityFindings& findings, const Spectrum& spectrum) {
+  std::string text =
+      line("fastest field", fmt::format("{:.4g} 1/s, of {} eigenvalues", spectral_radius(spectrum),
+                                        spectrum.eigenvalues.size()));
+  text += line("growth at any step",
+               spectrum.grows
+                   ? fmt::format("{:.3g} 1/s: the operators feed a field, {:.2g} of it in a run's step",
+                                 spectrum.growth_rate, std::expm1(spectrum.growth_rate * findings.dt))
+                   : "none");
+  if (spectrum.largest_step)
+    text += line(spectrum.grows ? "largest step that adds none" : "largest stable step",
+                 fmt::format("{:.4g} s, {:.4g} of a wave's time; a run's step is {:.3g} of it",
+                             *spectrum.largest_step, *spectrum.largest_step / findings.step.by_wave,
+                             findings.dt / *spectrum.largest_step));
+  else
+    text += line("largest stable step",
+                 fmt::format("left out: operators that are not symmetric, or a J of its own, on more than {} "
+                             "rows",
+                             solver::largest_step_matrix));
+  return text;
+}
+
+post::Chart chart_at(const std::string& title, const StabilityFindings& findings, const Spectrum& spectrum,
+                     double dt) {
+  constexpr std::size_t points = 400;
+  post::Chart chart{title, "Real part", "Imaginary part", false, false, {}};
+  chart.curves.push_back(is_heun(findings)
+                             ? closed_curve("Heun: |z| = 1", solver::heun_region(points), true)
+                             : closed_curve("Verlet's bound", solver::verlet_region(points), true));
+  chart.curves.push_back(dots("eigenvalues", spectrum.eigenvalues, dt));
+  return chart;
+}
+
+} // namespace
+
+std::string stability_text(const Case& the_case, const Vec3& stretch, const StabilityFindings& findings) {
+  std::string text = fmt::format(
+      "{}: {} particles with {:.1f} neighbours, {}, scheme {}, dissipation {}, {}{}\n", the_case.title,
+      findings.particles, findings.neighbours_mean, findings.formulation, findings.scheme,
+      findings.dissipation, is_heun(findings) ? "Heun's method" : "Verlet's method",
+      stretch == Vec3::Ones()
+          ? std::string(", undeformed")
+          : fmt::format(", stretched to {:g}, {:g}, {:g}", stretch[0], stretch[1], stretch[2]));
+  text += line("a wave's time",
+               fmt::format("{:.4g} s, over the smallest particle distance", findings.step.by_wave));
+  text += line("a run's step", fmt::format("{:.4g} s, {:.3g} of a wave's time, bound by the {}", findings.dt,
+                                           findings.dt / findings.step.by_wave,
+                                           findings.step.bound == "wave" ? "wave" : "critical step"));
+  text += line("critical step", fmt::format("{:.4g} s, by power iteration{}", findings.step.critical,
+                                            is_heun(findings) ? ": of the roughest fields alone" : ""));
+  if (findings.spectrum)
+    text += spectrum_text(findings, *findings.spectrum);
+  else
+    text += line("eigenvalues", fmt::format("left out: {} unknowns are more than {}", findings.unknowns,
+                                            solver::largest_matrix));
+  return text;
+}
+
+std::string stability_json(const Case& the_case, const Vec3& stretch, const StabilityFindings& findings) {
+  Json json = {{"case", the_case.path.string()},
+               {"title", the_case.title},
+               {"formulation", findings.formulation},
+               {"scheme", findings.scheme},
+               {"dissipation", findings.dissipation},
+               {"integrator", findings.integrator},
+               {"stretch", {stretch[0], stretch[1], stretch[2]}},
+               {"particles", findings.particles},
+               {"neighbours_mean", findings.neighbours_mean},
+               {"unknowns", findings.unknowns},
+               {"dt", findings.dt},
+               {"dt_by_wave", findings.step.by_wave},
+               {"dt_critical", findings.step.critical},
+               {"bound", findings.step.bound},
+               {"spectrum", nullptr}};
+  if (const auto& spectrum = findings.spectrum) {
+    const auto step = spectrum->largest_step;
+    json["spectrum"] = {{"eigenvalues", spectrum->eigenvalues.size()},
+                        {"radius_per_s", spectral_radius(*spectrum)},
+                        {"growth_rate_per_s", spectrum->growth_rate},
+                        {"grows", spectrum->grows},
+                        {"largest_step", step && std::isfinite(*step) ? Json(*step) : Json()},
+                        {"tolerated_growth", solver::tolerated_growth}};
+  }
+  return json.dump(1) + "\n";
+}
+
+std::string eigenvalues_csv(const Spectrum& spectrum) {
+  std::string text = "real_per_s,imaginary_per_s\n";
+  for (const auto& lambda : spectrum.eigenvalues)
+    text += fmt::format("{:.9g},{:.9g}\n", lambda.real(), lambda.imag());
+  return text;
+}
+
+post::Plot eigenvalue_plot(const StabilityFindings& findings, const Spectrum& spectrum,
+                           const std::filesystem::path& file) {
+  post::Plot plot;
+  plot.file = std::filesystem::absolute(file).string();
+  plot.charts = {chart_at("Eigenvalues times a run's step", findings, spectrum, findings.dt)};
+  if (spectrum.largest_step && std::isfinite(*spectrum.largest_step))
+    plot.charts.push_back(
+        chart_at("Eigenvalues times the largest stable step", findings, spectrum, *spectrum.largest_step));
+  return plot;
+}
+
+} // namespace tessera::app
