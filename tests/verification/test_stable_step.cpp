@@ -55,11 +55,12 @@ template <class Dissipation, class Formulation = PF<3>>
 double growth_in_run(const SceneSpec& scene, const ParticleCloud& cloud, double dt, int steps) {
   return assemble<Formulation, Dissipation>(scene, cloud, [&](auto& assembly) {
     auto& body = assembly.body;
+    constexpr double begun = 1e-7, faded = 1e-5 * begun; // what then grows is round-off
     std::mt19937_64 random(3);
     for (Vec3& p : body.U.p)
       for (double& component : p)
         component =
-            1e-7 * body.density * body.wave_speed * (static_cast<double>(random() >> 11) * 0x1p-52 - 1);
+            begun * body.density * body.wave_speed * (static_cast<double>(random() >> 11) * 0x1p-52 - 1);
     project_momentum<3>(body.U.p, body.U.x, body.V);
     assembly.step->start(body, dt);
     const int window = steps / 20; // longer than any field swings
@@ -80,7 +81,7 @@ double growth_in_run(const SceneSpec& scene, const ParticleCloud& cloud, double 
       if (i >= steps - window)
         late = std::max(late, size);
     }
-    return std::log(late / middle) / (steps / 2 - window);
+    return late < faded ? -1 : std::log(late / middle) / (steps / 2 - window);
   });
 }
 
