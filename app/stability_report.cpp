@@ -30,6 +30,16 @@ std::string line(const std::string& what, const std::string& value) {
   return fmt::format("  {:<31}{}\n", what, value);
 }
 
+std::string largest_step_text(const StabilityFindings& findings, const std::optional<double>& step) {
+  if (!step)
+    return fmt::format("left out: operators that are not symmetric, or a J of its own, on more than {} rows",
+                       solver::largest_step_matrix);
+  if (*step == 0 || !std::isfinite(*step))
+    return *step == 0 ? "none: every step adds some" : "any";
+  return fmt::format("{:.4g} s, {:.4g} of a wave's time; a run's step is {:.3g} of it", *step,
+                     *step / findings.step.by_wave, findings.dt / *step);
+}
+
 std::string spectrum_text(const StabilityFindings& findings, const Spectrum& spectrum) {
   std::string text =
       line("fastest field", fmt::format("{:.4g} 1/s, of {} eigenvalues", spectral_radius(spectrum),
@@ -39,26 +49,28 @@ std::string spectrum_text(const StabilityFindings& findings, const Spectrum& spe
                    ? fmt::format("{:.3g} 1/s: the operators feed a field, {:.2g} of it in a run's step",
                                  spectrum.growth_rate, std::expm1(spectrum.growth_rate * findings.dt))
                    : "none");
-  if (spectrum.largest_step)
-    text += line(spectrum.grows ? "largest step that adds none" : "largest stable step",
-                 fmt::format("{:.4g} s, {:.4g} of a wave's time; a run's step is {:.3g} of it",
-                             *spectrum.largest_step, *spectrum.largest_step / findings.step.by_wave,
-                             findings.dt / *spectrum.largest_step));
-  else
-    text += line("largest stable step",
-                 fmt::format("left out: operators that are not symmetric, or a J of its own, on more than {} "
-                             "rows",
-                             solver::largest_step_matrix));
-  return text;
+  return text + line(spectrum.grows ? "largest step that adds none" : "largest stable step",
+                     largest_step_text(findings, spectrum.largest_step));
 }
 
+/// The part of the method's region that the eigenvalues lie in: dissipation keeps them near the imaginary
+/// axis.
 post::Chart chart_at(const std::string& title, const StabilityFindings& findings, const Spectrum& spectrum,
                      double dt) {
-  constexpr std::size_t points = 400;
+  constexpr std::size_t points = 4000;
+  std::vector<solver::Complex> region =
+      is_heun(findings) ? solver::heun_region(points) : solver::verlet_region(points);
+  double leftmost = 0;
+  for (const auto& lambda : spectrum.eigenvalues)
+    leftmost = std::min(leftmost, dt * lambda.real());
+  // Pairs that do not swing lie on the real axis, the faster one down to -2 where the other is slow.
+  if (!is_heun(findings))
+    region.insert(region.begin(), -2);
+  else // from the real axis outwards, so that the mirror image goes on where it ends
+    std::reverse(region.begin(), region.end());
+  std::erase_if(region, [&](solver::Complex z) { return z.real() < 1.2 * leftmost; });
   post::Chart chart{title, "Real part", "Imaginary part", false, false, {}};
-  chart.curves.push_back(is_heun(findings)
-                             ? closed_curve("Heun: |z| = 1", solver::heun_region(points), true)
-                             : closed_curve("Verlet's bound", solver::verlet_region(points), true));
+  chart.curves.push_back(closed_curve(is_heun(findings) ? "Heun: |z| = 1" : "Verlet's bound", region, true));
   chart.curves.push_back(dots("eigenvalues", spectrum.eigenvalues, dt));
   return chart;
 }
@@ -128,7 +140,7 @@ post::Plot eigenvalue_plot(const StabilityFindings& findings, const Spectrum& sp
   post::Plot plot;
   plot.file = std::filesystem::absolute(file).string();
   plot.charts = {chart_at("Eigenvalues times a run's step", findings, spectrum, findings.dt)};
-  if (spectrum.largest_step && std::isfinite(*spectrum.largest_step))
+  if (spectrum.largest_step && *spectrum.largest_step > 0 && std::isfinite(*spectrum.largest_step))
     plot.charts.push_back(
         chart_at("Eigenvalues times the largest stable step", findings, spectrum, *spectrum.largest_step));
   return plot;
