@@ -45,6 +45,8 @@ struct Grammar {
     CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
 
     CLI::App* study_command = add("study", "A grid of runs of one case: error against cost", study);
+    CLI::App* stability_command = add(
+        "stability", "The largest stable step: of chapter 4's model, or of a case's operators", stability);
     CLI::App* materials_command =
         add("materials", "The laws a case can name, with their constants and sources", materials);
 
@@ -64,12 +66,20 @@ struct Grammar {
         ->type_name("DIR");
     run_command->add_flag("!--no-pictures", o.pictures,
                           "Leave out pictures and report (tessera post DIR makes them later)");
+    stability_command->add_option("case", o.case_file, "Case file, or its folder; chapter 4's model without")
+        ->type_name("CASE.toml");
+    stability_command
+        ->add_option("--stretch", o.stretch, "Principal stretches of the case's body along X, Y and Z")
+        ->type_name("L1,L2,L3")
+        ->delimiter(',')
+        ->expected(3);
     post_command->add_option("folder", o.folders, "Folder of a run")
         ->type_name("DIR")
         ->required()
         ->expected(1);
     compare_command->add_option("folders", o.folders, "Folders of runs")->type_name("DIR")->required();
-    for (CLI::App* command : {run_command, prepare_command, solve_command, compare_command})
+    for (CLI::App* command :
+         {run_command, prepare_command, solve_command, compare_command, stability_command})
       command
           ->add_option("-o,--output", o.output,
                        "Folder to write to (unless given, runs/NAME with NAME from the case: its folder, and "

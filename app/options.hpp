@@ -17,6 +17,7 @@ struct Options {
   bool pictures = true;        ///< run: draw and write the report
   bool retry = false;          ///< study: also what failed before
   bool hyperbolicity = false;  ///< materials: where their waves are real
+  std::vector<double> stretch; ///< stability: along X, Y and Z; empty: undeformed
 
   std::vector<std::string> overrides; ///< --set key=value, in order
   int threads = 0;                    ///< 0: all cores

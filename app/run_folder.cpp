@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 constexpr const char* signature = "# Written by tessera";
 
 bool is_ours(const fs::path& folder) {
-  for (const char* name :
-       {"summary.json", "quality.json", "cloud.vtp", "fields.pvd", "compare.json", "hyperbolicity.json"})
+  for (const char* name : {"summary.json", "quality.json", "cloud.vtp", "fields.pvd", "compare.json",
+                           "hyperbolicity.json", "stability.json"})
     if (fs::exists(folder / name))
       return true;
   for (const char* name : {"case.toml", "study.toml"}) {

@@ -12,6 +12,7 @@ void post(const Options& options);      ///< stored fields to pictures and repor
 void check(const Options& options);     ///< validate and foretell; writes nothing
 void compare(const Options& options);   ///< several runs in one table
 void study(const Options& options);     ///< a grid of runs: what accuracy costs
+void stability(const Options& options); ///< chapter 4's model, or the spectrum of a case's operators
 void materials(const Options& options); ///< the laws a case can name, or where they are hyperbolic
 
 } // namespace tessera::app

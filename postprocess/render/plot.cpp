@@ -136,7 +136,8 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
     plot->GetPen()->SetWidth(1.5f);
     return;
   }
-  plot->SetWidth(curve.dots ? 11.0f : 3.5f);
+  constexpr std::size_t many = 200;
+  plot->SetWidth(!curve.dots ? 3.5f : curve.x.size() < many ? 11.0f : 6.0f);
   plot->GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot); points && curve.dots)
     points->SetMarkerStyle(marker_of(curve));

@@ -118,7 +118,7 @@ class Body {
     if constexpr (Formulation::evolves_J) {
       const Mat3 F = embed(U.F[a]), G = embed_rate(R.F[a]);
       const Strain of_F = Strain::of(F);
-      const double pull = involution_ * wave[a];
+      const double pull = this->pull(a);
       if constexpr (Formulation::evolves_H) {
         R.H[a] = cross(F, G) + pull * (of_F.H - U.H[a]);
         R.J[a] = U.H[a].cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
@@ -127,6 +127,9 @@ class Body {
       }
     }
   }
+
+  /// Rate at which the penalty takes J to det F and H to cof F, 1/s.
+  double pull(std::int64_t a) const { return involution_ * wave[a]; }
 
   /// The second sweep gathers P for T and what the dissipation goes by.
   void momentum_rates() {

@@ -63,4 +63,18 @@ Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud) {
       scene, cloud, [&]<class Formulation>() { return forecast_formulation<Formulation>(scene, cloud); });
 }
 
+StabilityFindings stability(const SceneSpec& scene, const ParticleCloud& cloud, const Vec3& stretch) {
+  SceneSpec held = scene;
+  held.initial.clear();
+  held.walls.clear();
+  using Kind = BoundaryCondition::Kind;
+  std::erase_if(held.boundary, [](const BoundaryCondition& condition) {
+    return condition.kind == Kind::traction || condition.kind == Kind::pressure ||
+           condition.kind == Kind::body_force;
+  });
+  return with_formulation(held, cloud, [&]<class Formulation>() {
+    return stability_formulation<Formulation>(held, cloud, stretch);
+  });
+}
+
 } // namespace tessera::solver

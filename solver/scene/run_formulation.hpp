@@ -4,6 +4,7 @@
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/scene/stability.hpp"
 
 namespace tessera::solver {
 
@@ -15,5 +16,10 @@ Summary run_formulation(const SceneSpec& scene, const ParticleCloud& cloud, cons
 /// As forecast() of scene.hpp.
 template <class Formulation>
 Forecast forecast_formulation(const SceneSpec& scene, const ParticleCloud& cloud);
+
+/// As stability() of stability.hpp.
+template <class Formulation>
+StabilityFindings stability_formulation(const SceneSpec& scene, const ParticleCloud& cloud,
+                                        const Vec3& stretch);
 
 } // namespace tessera::solver

@@ -1,4 +1,5 @@
 #include "solver/scene/run_formulation_definition.hpp"
+#include "solver/scene/stability_definition.hpp"
 
 namespace tessera::solver {
 
@@ -8,5 +9,9 @@ template Summary run_formulation<Displacement<3>>(const SceneSpec&, const Partic
                                                   Progress&);
 template Forecast forecast_formulation<Displacement<2>>(const SceneSpec&, const ParticleCloud&);
 template Forecast forecast_formulation<Displacement<3>>(const SceneSpec&, const ParticleCloud&);
+template StabilityFindings stability_formulation<Displacement<2>>(const SceneSpec&, const ParticleCloud&,
+                                                                  const Vec3&);
+template StabilityFindings stability_formulation<Displacement<3>>(const SceneSpec&, const ParticleCloud&,
+                                                                  const Vec3&);
 
 } // namespace tessera::solver

@@ -1,4 +1,5 @@
 #include "solver/scene/run_formulation_definition.hpp"
+#include "solver/scene/stability_definition.hpp"
 
 namespace tessera::solver {
 
@@ -6,5 +7,7 @@ template Summary run_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&, 
 template Summary run_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
 template Forecast forecast_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&);
 template Forecast forecast_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&);
+template StabilityFindings stability_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&, const Vec3&);
+template StabilityFindings stability_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&, const Vec3&);
 
 } // namespace tessera::solver
