@@ -63,12 +63,11 @@ post::Chart chart_at(const std::string& title, const StabilityFindings& findings
   double leftmost = 0;
   for (const auto& lambda : spectrum.eigenvalues)
     leftmost = std::min(leftmost, dt * lambda.real());
-  // Pairs that do not swing lie on the real axis, the faster one down to -2 where the other is slow.
-  if (!is_heun(findings))
-    region.insert(region.begin(), -2);
-  else // from the real axis outwards, so that the mirror image goes on where it ends
+  if (!is_heun(findings)) // pairs that do not swing: the faster one down to -2 where the other is slow
+    region.emplace_back(-2);
+  std::erase_if(region, [&](solver::Complex z) { return z.real() < 1.3 * leftmost - 1e-9; });
+  if (region.back().real() < region.front().real()) // from the left, so that the cut edge stays open
     std::reverse(region.begin(), region.end());
-  std::erase_if(region, [&](solver::Complex z) { return z.real() < 1.2 * leftmost; });
   post::Chart chart{title, "Real part", "Imaginary part", false, false, {}};
   chart.curves.push_back(closed_curve(is_heun(findings) ? "Heun: |z| = 1" : "Verlet's bound", region, true));
   chart.curves.push_back(dots("eigenvalues", spectrum.eigenvalues, dt));
