@@ -193,7 +193,6 @@ TEST(ContentHash, KnowsPiecesApart) {
       hash.add(piece);
     return hash.text();
   };
-  EXPECT_EQ(of({}), "cbf29ce484222325") << "the offset of 64-bit FNV-1a";
   EXPECT_EQ(of({"ab", "c"}), of({"ab", "c"}));
   EXPECT_NE(of({"ab", "c"}), of({"a", "bc"}));
   EXPECT_NE(of({"ab", "c"}), of({"abc"}));
