@@ -48,6 +48,8 @@ const std::vector<Prefixed>* prefixed(const std::string& unit) {
       {0, {1, "Pa"}}, {1e3, {1e-3, "kPa"}}, {1e6, {1e-6, "MPa"}}, {1e10, {1e-9, "GPa"}}};
   static const Units energy{{0, {1e6, "µJ"}},    {1e-3, {1e3, "mJ"}}, {1, {1, "J"}},
                             {1e3, {1e-3, "kJ"}}, {1e6, {1e-6, "MJ"}}, {1e9, {1e-9, "GJ"}}};
+  static const Units density{
+      {0, {1, "J/m³"}}, {1e3, {1e-3, "kJ/m³"}}, {1e6, {1e-6, "MJ/m³"}}, {1e9, {1e-9, "GJ/m³"}}};
   static const Units force{{0, {1e3, "mN"}}, {1, {1, "N"}}, {1e3, {1e-3, "kN"}}, {1e6, {1e-6, "MN"}}};
   static const Units speed{{0, {1e3, "mm/s"}}, {0.1, {1, "m/s"}}, {1e4, {1e-3, "km/s"}}};
   static const Units area{{0, {1e12, "µm²"}}, {1e-9, {1e6, "mm²"}}, {0.1, {1, "m²"}}};
@@ -60,6 +62,8 @@ const std::vector<Prefixed>* prefixed(const std::string& unit) {
     return &stress;
   if (unit == "J")
     return &energy;
+  if (unit == "J/m³")
+    return &density;
   if (unit == "N")
     return &force;
   if (unit == "m/s")
@@ -106,6 +110,18 @@ Quantity field_quantity(const std::string& name) {
     return {"Displacement", "m", Palette::from_zero, 0};
   if (name == "J")
     return {"Volume ratio J", "", Palette::diverging, 1};
+  if (name.starts_with("PrincipalStress"))
+    return {"Principal stress " + name.substr(15), "Pa", Palette::diverging, 0};
+  if (name.starts_with("PrincipalStretch"))
+    return {"Principal stretch " + name.substr(16), "", Palette::diverging, 1};
+  if (name == "Triaxiality")
+    return {"Stress triaxiality", "", Palette::diverging, 0};
+  if (name == "LodeAngle")
+    return {"Lode angle", "°", Palette::spread, 0};
+  if (name == "StrainEnergy")
+    return {"Strain energy density", "J/m³", Palette::from_zero, 0};
+  if (name == "WaveSpeed")
+    return {"Wave speed", "m/s", Palette::spread, 0};
   if (name == "volume")
     return {"Subvolume", "m³", Palette::spread, 0};
   if (name == "area")

@@ -4,6 +4,7 @@
 #include "app/case/read_wall.hpp"
 #include "app/case/table.hpp"
 #include "core/error.hpp"
+#include "solver/physics/derived_fields.hpp"
 #include "solver/physics/materials/catalogue.hpp"
 
 #include <fmt/format.h>
@@ -117,13 +118,26 @@ solver::Probe read_probe(Table table) {
   return probe;
 }
 
+/// A picture of a derived field is reason enough to store it.
+void store_what_is_drawn(const std::vector<post::Picture>& pictures, std::vector<std::string>& fields) {
+  for (const post::Picture& picture : pictures)
+    if (solver::find_derived_field(picture.field) &&
+        std::find(fields.begin(), fields.end(), picture.field) == fields.end())
+      fields.push_back(picture.field);
+}
+
 post::Picture read_picture(Table table, const std::vector<post::Picture>& earlier) {
   post::Picture picture;
   picture.name = table.name("name");
-  picture.field = table.choice("field", {"PlasticStrain", "VonMises", "Pressure", "Displacement",
-                                         "Displacement.x", "Displacement.y", "Displacement.z", "Velocity",
-                                         "Velocity.x", "Velocity.y", "Velocity.z", "Stress.xx", "Stress.yy",
-                                         "Stress.zz", "Stress.xy", "Stress.yz", "Stress.xz", "J", "volume"});
+  std::vector<std::string> fields{
+      "PlasticStrain",  "VonMises",       "Pressure",  "Displacement", "Displacement.x",
+      "Displacement.y", "Displacement.z", "Velocity",  "Velocity.x",   "Velocity.y",
+      "Velocity.z",     "Stress.xx",      "Stress.yy", "Stress.zz",    "Stress.xy",
+      "Stress.yz",      "Stress.xz",      "J",         "volume"};
+  for (const solver::DerivedField& field : solver::derived_fields())
+    if (field.components == 1)
+      fields.emplace_back(field.name);
+  picture.field = table.choice("field", fields);
   picture.view =
       table.choice_or("view", picture.view, {"front", "back", "left", "right", "top", "bottom", "iso"});
   picture.clip = table.choice_or("clip", "", {"x", "y", "z"});
@@ -239,12 +253,16 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
     scene.frames = static_cast<int>(output->integer_or("frames", scene.frames, 1, 100'000));
     scene.history_rows =
         static_cast<int>(output->integer_or("history_rows", scene.history_rows, 1, 10'000'000));
+    output->allow("fields");
+    if (output->has("fields"))
+      scene.fields = output->choices("fields", solver::derived_field_names());
     const std::vector<Table> probes = output->tables("probe"), pictures = output->tables("picture");
     output->finish();
     for (const Table& entry : probes)
       scene.probes.push_back(read_probe(entry));
     for (const Table& entry : pictures)
       result.pictures.push_back(read_picture(entry, result.pictures));
+    store_what_is_drawn(result.pictures, scene.fields);
   }
   if (result.has_scene)
     solver::validate(scene, result.where);

@@ -4,6 +4,7 @@
 #include "core/frame.hpp"
 #include "core/parallel.hpp"
 #include "solver/physics/body.hpp"
+#include "solver/physics/derived_fields.hpp"
 #include "solver/physics/stress_measures.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace tessera::solver {
@@ -18,6 +20,12 @@ namespace tessera::solver {
 /// Arrays of a frame, kept from one to the next; three components in plane strain too.
 class FrameArrays {
  public:
+  /// `derived`: names of derived_fields() that frames hold beside the usual ones.
+  explicit FrameArrays(const std::vector<std::string>& derived) {
+    for (const std::string& name : derived)
+      derived_.push_back({find_derived_field(name), {}});
+  }
+
   template <class Body>
   void fill(const Body& body, const ParticleCloud& cloud) {
     constexpr int D = Body::dimension;
@@ -47,18 +55,36 @@ class FrameArrays {
     });
   }
 
+  /// The derived fields, which nothing but frames wants.
+  template <class Body>
+  void derive(const Body& body) {
+    for (Derived& derived : derived_) {
+      const DerivedField& field = *derived.field;
+      derived.values.resize(static_cast<std::size_t>(field.components * body.size()));
+      for_each(body.size(), [&](std::int64_t a) {
+        const Strain strain = body.strain(a);
+        const Mat3 sigma = cauchy(body.material->piola(strain, a), strain.F, strain.J);
+        field.compute({strain.F, sigma, body.material->energy(strain, a), body.wave[a]},
+                      derived.values.data() + field.components * a);
+      });
+    }
+  }
+
   Frame frame(double time, std::int64_t step, const ParticleCloud& cloud) const {
-    return {time,
-            step,
-            cloud.X,
-            {{"Displacement", 3, displacement_},
-             {"Velocity", 3, velocity_},
-             {"Pressure", 1, pressure_},
-             {"VonMises", 1, von_mises_},
-             {"PlasticStrain", 1, plastic_strain_},
-             {"Stress", 6, stress_},
-             {"J", 1, jacobian_},
-             {"id", 1, id_}}};
+    Frame frame{time,
+                step,
+                cloud.X,
+                {{"Displacement", 3, displacement_},
+                 {"Velocity", 3, velocity_},
+                 {"Pressure", 1, pressure_},
+                 {"VonMises", 1, von_mises_},
+                 {"PlasticStrain", 1, plastic_strain_},
+                 {"Stress", 6, stress_},
+                 {"J", 1, jacobian_},
+                 {"id", 1, id_}}};
+    for (const Derived& derived : derived_)
+      frame.fields.push_back({std::string(derived.field->name), derived.field->components, derived.values});
+    return frame;
   }
 
   ProbeFields probe_fields(const ParticleCloud& cloud) const {
@@ -91,6 +117,12 @@ class FrameArrays {
   }
 
  private:
+  struct Derived {
+    const DerivedField* field;
+    std::vector<double> values;
+  };
+
+  std::vector<Derived> derived_;
   std::vector<double> displacement_, velocity_, pressure_, von_mises_, plastic_strain_, stress_, jacobian_,
       id_;
 };

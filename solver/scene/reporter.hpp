@@ -20,7 +20,7 @@ class Reporter {
  public:
   Reporter(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
            Assembly<Body>& assembly)
-      : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly) {
+      : scene_(scene), cloud_(cloud), outputs_(outputs), assembly_(assembly), arrays_(scene.fields) {
     for (const Probe& probe : scene.probes)
       probes_.emplace_back(probe, cloud);
     if (!assembly.step->walls().empty())
@@ -152,6 +152,7 @@ class Reporter {
     if (!outputs_.frame)
       return;
     arrays_.fill(assembly_.body, cloud_);
+    arrays_.derive(assembly_.body);
     outputs_.frame(arrays_.frame(time, step, cloud_));
   }
 

@@ -128,8 +128,9 @@ struct SceneSpec {
   std::vector<WallSpec> walls;
   std::vector<Probe> probes;
   std::optional<ExactSolution> exact;
-  int frames = 20;         ///< equally spaced in time, besides the one at time zero
-  int history_rows = 1000; ///< equally spaced in time, besides the one at time zero
+  std::vector<std::string> fields{}; ///< derived_fields() that frames hold beside the usual ones
+  int frames = 20;                   ///< equally spaced in time, besides the one at time zero
+  int history_rows = 1000;           ///< equally spaced in time, besides the one at time zero
 };
 
 struct Energies {
@@ -227,7 +228,7 @@ std::vector<std::string> resting_constants(const SceneSpec& scene);
 void validate(const SceneSpec& scene, const std::function<std::string(const std::string&)>& where);
 
 /// Runs the scene to its end time. Fields of the frames: Displacement (3), Velocity (3), Pressure, VonMises,
-/// PlasticStrain, Stress (6, Cauchy), J, id.
+/// PlasticStrain, Stress (6, Cauchy), J, id and those the scene names.
 /// Throws InputError (set unknown, support too small) before the first step; RunError on J <= 0 or a
 /// non-finite value (naming particle, step and time) or on interruption, after handing out the last good
 /// frame.

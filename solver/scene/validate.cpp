@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "solver/operators/kernel.hpp"
+#include "solver/physics/derived_fields.hpp"
 #include "solver/physics/materials/catalogue.hpp"
 #include "solver/scene/probe_values.hpp"
 #include "solver/scene/scene.hpp"
@@ -180,6 +181,9 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
     require(seen.insert(column_name(probe)).second, fmt::format("two probes are named '{}'", probe.name),
             where(key + ".name"), "give each its own name");
   }
+  for (std::size_t i = 0; i < scene.fields.size(); ++i)
+    one_of(scene.fields[i], derived_field_names(), "output.fields",
+           where(fmt::format("output.fields.{}", i)));
   number("output.frames", scene.frames, scene.frames >= 1 && scene.frames <= 100000, "from 1 to 100000");
   number("output.history_rows", scene.history_rows, scene.history_rows >= 1 && scene.history_rows <= 10000000,
          "from 1 to 10000000");

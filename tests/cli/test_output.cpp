@@ -126,6 +126,27 @@ TEST(Output, RunWritesWhatItPromises) {
   EXPECT_FALSE(fs::exists(place / "out" / "stale.png"));
 }
 
+TEST(Output, DerivedFieldsAreStoredWhereAskedForOrDrawn) {
+  const Workplace place;
+  write_small_case(place);
+  const auto frame = [&](const std::string& folder) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(place / folder / "fields"))
+      return place.read(folder + "/fields/" + entry.path().filename().string());
+    return std::string();
+  };
+  EXPECT_EQ(place.tessera({"run", "case.toml", "--quiet", "-o", "plain"}).status, 0);
+  const Result result = place.tessera({"run", "case.toml", "--quiet", "-o", "more", "--set",
+                                       "output.fields=[\"LodeAngle\", \"DeformationGradient\"]", "--set",
+                                       "output.picture=[{name = \"triaxiality\", field = \"Triaxiality\"}]"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* name : {"LodeAngle", "DeformationGradient", "Triaxiality"}) {
+    EXPECT_NE(frame("more").find(name), std::string::npos) << name;
+    EXPECT_EQ(frame("plain").find(name), std::string::npos) << name;
+  }
+  expect_error(place.tessera({"run", "case.toml", "--set", "output.fields=[\"Lodeangle\"]"}),
+               {"Lodeangle", "LodeAngle"});
+}
+
 TEST(Output, DefaultFolderIsNamedAfterTheCase) {
   const Workplace place;
   write_small_case(place);
