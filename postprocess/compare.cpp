@@ -7,6 +7,7 @@
 #include "postprocess/document.hpp"
 #include "postprocess/field_difference.hpp"
 #include "postprocess/history_charts.hpp"
+#include "postprocess/picture.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"
 #include "postprocess/run_figures.hpp"
