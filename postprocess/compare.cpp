@@ -292,7 +292,7 @@ Comparison compare(const std::vector<fs::path>& folders, const fs::path& output,
       fields.emplace_back("PlasticStrain");
     fields.emplace_back("VonMises");
   }
-  const bool asked = !sight.fields.empty() || !sight.sections.empty();
+  const bool asked = !sight.fields.empty() || !sight.sections.empty() || sight.time != "last";
   const std::vector<Snapshot> snapshots = snapshots_of(folders, sight.time, asked, progress);
   if (!snapshots.empty())
     add_differences(figures, snapshots, sight.fields);
