@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 namespace tessera::post {
@@ -145,7 +146,11 @@ std::vector<fs::path> draw_probes(const std::vector<fs::path>& folders, const st
       return std::count(history.names.begin(), history.names.end(), column) > 0 &&
              !history.column(column).empty();
     });
-    if (shared)
+    const auto moves = [&](const io::History& history) {
+      const std::vector<double>& values = history.column(column);
+      return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+    };
+    if (shared && std::any_of(histories.begin(), histories.end(), moves))
       plot.charts.push_back(chart_over_time(column_quantity(column).label, column, runs));
   }
   return plot.charts.empty() ? std::vector<fs::path>{} : render({{}, {plot}}, progress);
@@ -192,11 +197,16 @@ std::vector<Snapshot> snapshots_of(const std::vector<fs::path>& folders, const s
     return {};
   }
   double first = snapshots.front().frame.time, last = first;
+  double asked = 0;
+  const bool named = std::from_chars(time.data(), time.data() + time.size(), asked).ec == std::errc();
   for (const Snapshot& snapshot : snapshots) {
     first = std::min(first, snapshot.frame.time);
     last = std::max(last, snapshot.frame.time);
   }
-  if (last - first > 0.01 * last)
+  if (named && std::max(std::abs(first - asked), std::abs(last - asked)) > 0.01 * std::abs(asked))
+    progress.note(fmt::format("the frames nearest to {} are at {} and {}", with_unit(asked, "s"),
+                              with_unit(first, "s"), with_unit(last, "s")));
+  else if (last - first > 0.01 * last)
     progress.note(fmt::format("the frames compared lie apart in time: {} to {}", with_unit(first, "s"),
                               with_unit(last, "s")));
   return snapshots;

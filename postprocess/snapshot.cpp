@@ -51,7 +51,8 @@ const io::StoredFrame& chosen_frame(const std::vector<io::StoredFrame>& frames, 
 }
 
 Snapshot read_snapshot(const fs::path& folder, const std::string& which) {
-  const fs::path file = chosen_frame(io::read_series(folder), which).file;
+  const std::vector<io::StoredFrame> frames = io::read_series(folder);
+  const fs::path file = chosen_frame(frames, which).file;
   Snapshot snapshot{file, io::read_frame(file), io::read_cloud(folder / "cloud.vtp")};
   require(snapshot.frame.x.size() == snapshot.cloud.X.size(),
           fmt::format("the frame has {} particles, the folder's cloud.vtp {}", snapshot.frame.x.size(),
