@@ -44,6 +44,7 @@ struct Grammar {
     CLI::App* check_command = add("check", "Validate a case and foretell its run; writes nothing", check);
     CLI::App* compare_command = add("compare", "Several runs side by side: one table, one picture", compare);
 
+    CLI::App* export_command = add("export", "A stored frame as a table: every array in CSV", export_fields);
     CLI::App* study_command = add("study", "A grid of runs of one case: error against cost", study);
     CLI::App* stability_command = add(
         "stability", "The largest stable step: of chapter 4's model, or of a case's operators", stability);
@@ -73,10 +74,8 @@ struct Grammar {
         ->type_name("L1,L2,L3")
         ->delimiter(',')
         ->expected(3);
-    post_command->add_option("folder", o.folders, "Folder of a run")
-        ->type_name("DIR")
-        ->required()
-        ->expected(1);
+    for (CLI::App* command : {post_command, export_command})
+      command->add_option("folder", o.folders, "Folder of a run")->type_name("DIR")->required()->expected(1);
     compare_command->add_option("folders", o.folders, "Folders of runs")->type_name("DIR")->required();
     for (CLI::App* command :
          {run_command, prepare_command, solve_command, compare_command, stability_command})
@@ -85,6 +84,15 @@ struct Grammar {
                        "Folder to write to (unless given, runs/NAME with NAME from the case: its folder, and "
                        "-FILE where the file is not case.toml)")
           ->type_name("DIR");
+    add_sight(*compare_command, o);
+    for (CLI::App* command : {compare_command, export_command})
+      command
+          ->add_option("--time", o.time, "The frame: last (unless given), first, or nearest to a time in s")
+          ->type_name("T");
+    export_command
+        ->add_option("-o,--output", o.output,
+                     "File to write (unless given, DIR/fields_NNNN.csv as the frame is called)")
+        ->type_name("FILE.csv");
     for (CLI::App* command : {run_command, prepare_command})
       command->add_flag("--cells", o.cells, "Also write the Voronoi cells (cells.vtu)");
     CLI::Option* hyperbolicity = materials_command->add_flag(
@@ -119,6 +127,32 @@ struct Grammar {
   }
 
  private:
+  /// What compare looks at.
+  static void add_sight(CLI::App& command, Options& o) {
+    command
+        .add_option(
+            "--field", o.fields,
+            "Field to draw, as VonMises, Velocity or Stress.xy (repeatable; PlasticStrain where a run "
+            "flows, and VonMises, unless given)")
+        ->type_name("NAME")
+        ->allow_extra_args(false);
+    command
+        .add_option("--section", o.sections,
+                    "Draw the fields along a line, two points in m: x0,y0,z0:x1,y1,z1 (repeatable)")
+        ->type_name("FROM:TO")
+        ->allow_extra_args(false);
+    command.add_flag("--reference", o.reference, "Sections of the body as it was, not of the deformed one");
+    command.add_option("--view", o.view, "front (unless given), back, left, right, top, bottom or iso")
+        ->type_name("VIEW")
+        ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}));
+    command
+        .add_option("--clip", o.clip,
+                    "Leave out the half before the middle plane of y (unless given), x or "
+                    "z; or none")
+        ->type_name("AXIS")
+        ->check(CLI::IsMember({"x", "y", "z", "none"}));
+  }
+
   CLI::App* add(const std::string& name, const std::string& help, Command command) {
     CLI::App* sub = app.add_subcommand(name, help);
     sub->fallthrough();

@@ -10,14 +10,19 @@ namespace tessera::app {
 
 struct Options {
   std::filesystem::path case_file;            ///< run, prepare, solve, check; study: its own file
-  std::vector<std::filesystem::path> folders; ///< post (one), compare (several)
+  std::vector<std::filesystem::path> folders; ///< post, export (one), compare (several)
   std::filesystem::path output;               ///< -o; empty: chosen by the command
-  std::filesystem::path cloud; ///< solve: particles stored earlier; empty: the output folder's own
-  bool cells = false;          ///< run, prepare: also write the Voronoi cells
-  bool pictures = true;        ///< run: draw and write the report
-  bool retry = false;          ///< study: also what failed before
-  bool hyperbolicity = false;  ///< materials: where their waves are real
-  std::vector<double> stretch; ///< stability: along X, Y and Z; empty: undeformed
+  std::filesystem::path cloud;            ///< solve: particles stored earlier; empty: the output folder's own
+  bool cells = false;                     ///< run, prepare: also write the Voronoi cells
+  std::string time = "last";              ///< compare, export: which frame
+  std::vector<std::string> fields;        ///< compare: what is drawn; empty: chosen by the command
+  std::string view = "front", clip = "y"; ///< compare: as a picture's; "none" does not clip
+  std::vector<std::string> sections;      ///< compare: "x0,y0,z0:x1,y1,z1", m
+  bool reference = false;                 ///< compare: sections of the body as it was
+  bool pictures = true;                   ///< run: draw and write the report
+  bool retry = false;                     ///< study: also what failed before
+  std::vector<double> stretch;            ///< stability: along X, Y and Z; empty: undeformed
+  bool hyperbolicity = false;             ///< materials: where their waves are real
 
   std::vector<std::string> overrides; ///< --set key=value, in order
   int threads = 0;                    ///< 0: all cores

@@ -3,8 +3,11 @@
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/history.hpp"
+#include "postprocess/csv.hpp"
 #include "postprocess/document.hpp"
+#include "postprocess/field_difference.hpp"
 #include "postprocess/history_charts.hpp"
+#include "postprocess/picture.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"
 #include "postprocess/run_figures.hpp"
@@ -14,8 +17,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
-#include <set>
 
 namespace tessera::post {
 namespace {
@@ -75,28 +79,18 @@ Unit unit_of(const Row& row) {
   for (const Figure* figure : row.runs)
     if (figure && figure->value && std::isfinite(*figure->value))
       most = std::max(most, std::abs(*figure->value));
-  return row.key == "wall_seconds" ? Unit{1, "s"} : readable_unit(row.unit, most);
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string out = "\"";
-  for (const char c : text)
-    out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
+  return row.key.ends_with("_seconds") ? Unit{1, "s"} : readable_unit(row.unit, most);
 }
 
 std::string csv_text(const std::vector<std::string>& names, const std::vector<Row>& rows) {
   std::vector<std::string> cells{"key", "quantity", "unit"};
-  for (const std::string& name : names)
-    cells.push_back(csv_cell(name));
-  std::string text = fmt::format("{}\n", fmt::join(cells, ","));
+  cells.insert(cells.end(), names.begin(), names.end());
+  std::string text = csv_line(cells);
   for (const Row& row : rows) {
-    cells = {csv_cell(row.key), csv_cell(row.label), csv_cell(row.unit)};
+    cells = {row.key, row.label, row.unit};
     for (const Figure* figure : row.runs)
-      cells.push_back(figure ? csv_cell(figure->text) : "");
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+      cells.push_back(figure ? figure->text : "");
+    text += csv_line(cells);
   }
   return text;
 }
@@ -152,22 +146,136 @@ std::vector<fs::path> draw_probes(const std::vector<fs::path>& folders, const st
       return std::count(history.names.begin(), history.names.end(), column) > 0 &&
              !history.column(column).empty();
     });
-    if (shared)
+    const auto moves = [&](const io::History& history) {
+      const std::vector<double>& values = history.column(column);
+      return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+    };
+    if (shared && std::any_of(histories.begin(), histories.end(), moves))
       plot.charts.push_back(chart_over_time(column_quantity(column).label, column, runs));
   }
   return plot.charts.empty() ? std::vector<fs::path>{} : render({{}, {plot}}, progress);
 }
 
+/// "PlasticStrain" becomes plastic_strain, "Stress.xy" stress_xy: for names of files.
+std::string file_word(const std::string& field) {
+  std::string word;
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    const auto c = static_cast<unsigned char>(field[i]);
+    if (std::isupper(c) && i > 0 && std::islower(static_cast<unsigned char>(field[i - 1])))
+      word += '_';
+    word += std::isalnum(c) ? static_cast<char>(std::tolower(c)) : '_';
+  }
+  return word;
+}
+
 std::vector<fs::path> draw_fields(const std::vector<fs::path>& folders, const std::vector<std::string>& names,
-                                  bool plastic, const fs::path& output, Progress& progress) {
-  Picture stress;
-  stress.name = "compare_von_mises";
-  stress.field = "VonMises";
-  stress.clip = "y";
-  Picture strain = stress;
-  strain.name = "compare_plastic_strain";
-  strain.field = "PlasticStrain";
-  return draw(plastic ? std::vector{strain, stress} : std::vector{stress}, folders, names, output, progress);
+                                  const std::vector<std::string>& fields, const Sight& sight,
+                                  const fs::path& output, Progress& progress) {
+  std::vector<Picture> pictures;
+  for (const std::string& field : fields) {
+    Picture& picture = pictures.emplace_back();
+    picture.name = "compare_" + file_word(field);
+    picture.field = field;
+    picture.view = sight.view;
+    picture.clip = sight.clip;
+    picture.frame = sight.time;
+  }
+  return draw(pictures, folders, names, output, progress);
+}
+
+/// The runs at the moment in question; none, with a note, where one has no frames and `needed` is not set.
+std::vector<Snapshot> snapshots_of(const std::vector<fs::path>& folders, const std::string& time, bool needed,
+                                   Progress& progress) {
+  std::vector<Snapshot> snapshots;
+  try {
+    for (const fs::path& folder : folders)
+      snapshots.push_back(read_snapshot(folder, time));
+  } catch (const InputError& error) {
+    if (needed)
+      throw;
+    progress.note(fmt::format("fields are not compared: {}", error.what()));
+    return {};
+  }
+  double first = snapshots.front().frame.time, last = first;
+  double asked = 0;
+  const bool named = std::from_chars(time.data(), time.data() + time.size(), asked).ec == std::errc();
+  for (const Snapshot& snapshot : snapshots) {
+    first = std::min(first, snapshot.frame.time);
+    last = std::max(last, snapshot.frame.time);
+  }
+  if (named && std::max(std::abs(first - asked), std::abs(last - asked)) > 0.01 * std::abs(asked))
+    progress.note(fmt::format("the frames nearest to {} are at {} and {}", with_unit(asked, "s"),
+                              with_unit(first, "s"), with_unit(last, "s")));
+  else if (last - first > 0.01 * last)
+    progress.note(fmt::format("the frames compared lie apart in time: {} to {}", with_unit(first, "s"),
+                              with_unit(last, "s")));
+  return snapshots;
+}
+
+void add_differences(std::vector<std::vector<Figure>>& figures, const std::vector<Snapshot>& snapshots,
+                     const std::vector<std::string>& chosen) {
+  std::vector<std::string> fields{"Displacement", "PlasticStrain", "VonMises", "Pressure"};
+  for (const std::string& field : chosen)
+    if (std::find(fields.begin(), fields.end(), field) == fields.end())
+      fields.push_back(field);
+  const std::vector<Difference> differences = differences_from_first(snapshots, fields);
+  for (std::size_t i = 1; i < differences.size(); ++i) {
+    const auto add = [&](const std::string& key, const std::string& label, const std::string& unit,
+                         double value) {
+      figures[i].push_back({"difference." + key, label, unit, fmt::format("{}", value), value});
+    };
+    add("points", "Points of the first run inside both", "", static_cast<double>(differences[i].points));
+    for (const FieldDifference& field : differences[i].fields) {
+      if (!field.relative || !std::isfinite(field.largest))
+        continue; // nothing there, or a run that ended in no numbers
+      const Quantity quantity = field_quantity(field.field);
+      const std::string key = file_word(field.field);
+      add(key + ".l2_relative", quantity.label + ": difference from the first, L2 relative", "",
+          *field.relative);
+      add(key + ".largest", quantity.label + ": largest difference from the first", quantity.unit,
+          field.largest);
+    }
+  }
+}
+
+/// compare_section_1.csv and .png, ...
+std::vector<fs::path> draw_sections(const std::vector<SectionCurves>& sections,
+                                    const std::vector<Snapshot>& snapshots,
+                                    const std::vector<std::string>& names, Configuration configuration,
+                                    const fs::path& output, Progress& progress) {
+  RenderJob job;
+  std::vector<fs::path> files;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    const SectionCurves& section = sections[k];
+    const fs::path stem = output / fmt::format("compare_section_{}", k + 1);
+    files.push_back(fs::path(stem) += ".csv");
+    io::write_text(files.back(), csv_text(section, names));
+    const Unit length = readable_unit("m", std::max(section.points.front().lpNorm<Eigen::Infinity>(),
+                                                    section.points.back().lpNorm<Eigen::Infinity>()));
+    const auto place = [&](const Vec3& point) {
+      std::string text =
+          fmt::format("{}, {}", figure(length.factor * point[0]), figure(length.factor * point[1]));
+      if (snapshots.front().cloud.dimension == 3)
+        text += ", " + figure(length.factor * point[2]);
+      return "(" + text + ")";
+    };
+    job.plots.push_back(
+        {fs::absolute(fs::path(stem) += ".png").string(),
+         charts_of(section, names,
+                   fmt::format("From {} to {} {}{} at {}", place(section.points.front()),
+                               place(section.points.back()), length.name,
+                               configuration == Configuration::reference ? " of the body as it was," : "",
+                               with_unit(snapshots.front().frame.time, "s"))),
+         false});
+  }
+  const std::vector<fs::path> drawn = render(job, progress);
+  files.insert(files.end(), drawn.begin(), drawn.end());
+  return files;
+}
+
+bool is_plastic(const std::vector<Figure>& run) {
+  const Figure* strain = find_figure(run, "max.equivalent_plastic_strain");
+  return strain && strain->value.value_or(0) > 0;
 }
 
 std::size_t width_of(const std::string& utf8) {
@@ -182,29 +290,41 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
 
 } // namespace
 
-Comparison compare(const std::vector<fs::path>& folders, const fs::path& output, Progress& progress) {
+Comparison compare(const std::vector<fs::path>& folders, const fs::path& output, Progress& progress,
+                   const Sight& sight) {
   require(!folders.empty(), "there is nothing to compare", "", "name the folders of two runs or more");
   std::vector<std::vector<Figure>> figures;
   for (const fs::path& folder : folders)
     figures.push_back(summary_figures(folder));
+  std::vector<std::string> fields = sight.fields;
+  if (fields.empty()) {
+    if (std::any_of(figures.begin(), figures.end(), is_plastic))
+      fields.emplace_back("PlasticStrain");
+    fields.emplace_back("VonMises");
+  }
+  const bool asked = !sight.fields.empty() || !sight.sections.empty() || sight.time != "last";
+  const std::vector<Snapshot> snapshots = snapshots_of(folders, sight.time, asked, progress);
+  if (!snapshots.empty())
+    add_differences(figures, snapshots, sight.fields);
+  std::vector<SectionCurves> sections;
+  for (const Section& section : sight.sections)
+    sections.push_back(cut(section, snapshots, fields, sight.configuration));
   io::make_output_folder(output);
 
   Comparison comparison;
   comparison.runs = distinct_names(folders);
   const std::vector<Row> rows = rows_of(figures);
-  bool plastic = false;
   for (const Row& row : rows) {
     const Unit unit = unit_of(row);
     comparison.rows.push_back(titled(row.label, unit.name, ""));
     auto& values = comparison.values.emplace_back();
-    for (const Figure* figure : row.runs) {
+    for (const Figure* figure : row.runs)
       values.push_back(figure ? shown(*figure, unit.factor) : "-");
-      if (figure && row.key == "max.equivalent_plastic_strain" && figure->value.value_or(0) > 0)
-        plastic = true;
-    }
   }
-  for (const auto& drawn : {draw_probes(folders, comparison.runs, output, progress),
-                            draw_fields(folders, comparison.runs, plastic, output, progress)})
+  for (const auto& drawn :
+       {draw_probes(folders, comparison.runs, output, progress),
+        draw_sections(sections, snapshots, comparison.runs, sight.configuration, output, progress),
+        draw_fields(folders, comparison.runs, fields, sight, output, progress)})
     comparison.files.insert(comparison.files.end(), drawn.begin(), drawn.end());
   const auto keep = [&](const char* name, const std::string& text) {
     io::write_text(output / name, text);

@@ -2,13 +2,21 @@
 #pragma once
 
 #include "core/progress.hpp"
-#include "postprocess/picture.hpp"
+#include "postprocess/section.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace tessera::post {
+
+/// What of the fields is looked at, and how.
+struct Sight {
+  std::vector<std::string> fields; ///< none: PlasticStrain where a run flows, and VonMises
+  std::string time = "last", view = "front", clip = "y"; ///< as in Picture
+  std::vector<Section> sections;
+  Configuration configuration = Configuration::current; ///< of the sections
+};
 
 struct Comparison {
   std::vector<std::string> runs;                ///< folder names, made distinct
@@ -17,11 +25,13 @@ struct Comparison {
   std::vector<std::filesystem::path> files;     ///< what was written
 };
 
-/// Reads summary.json and history.csv of each folder; writes compare.csv, compare.json, compare.md, one PNG
-/// overlaying every probe that all histories share, and side-by-side pictures of PlasticStrain and VonMises,
-/// into `output`. InputError when a folder holds no finished run.
+/// Reads summary.json, history.csv and a frame of each folder; writes compare.csv, compare.json, compare.md,
+/// compare.html, one PNG overlaying every probe that all histories share, side-by-side pictures of the
+/// fields, and a chart and a .csv of each section, into `output`. The table ends with each run's differences
+/// from the first (field_difference.hpp). InputError when a folder holds no finished run, or not what is
+/// asked for.
 Comparison compare(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& output,
-                   Progress& progress);
+                   Progress& progress, const Sight& sight = {});
 
 /// The table as aligned text for a terminal.
 std::string table(const Comparison& comparison);

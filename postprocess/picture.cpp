@@ -4,35 +4,16 @@
 #include "io/field_series.hpp"
 #include "postprocess/quantity.hpp"
 #include "postprocess/render_job.hpp"
+#include "postprocess/snapshot.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <limits>
 
 namespace tessera::post {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The frame a picture asks for: the last, the first, or the one nearest to a time.
-const io::StoredFrame& chosen(const std::vector<io::StoredFrame>& frames, const std::string& which) {
-  if (which == "last")
-    return frames.back();
-  if (which == "first")
-    return frames.front();
-  double time = 0;
-  const char* end = which.data() + which.size();
-  const auto [stop, error] = std::from_chars(which.data(), end, time);
-  require(error == std::errc() && stop == end, fmt::format("'{}' names no frame", which), "",
-          "last, first or a time in seconds do");
-  const io::StoredFrame* nearest = &frames.front();
-  for (const io::StoredFrame& frame : frames)
-    if (std::abs(frame.time - time) < std::abs(nearest->time - time))
-      nearest = &frame;
-  return *nearest;
-}
 
 Drawing drawing_of(const Picture& picture, const std::vector<std::vector<io::StoredFrame>>& series,
                    const std::vector<std::string>& labels, const fs::path& output) {
@@ -46,7 +27,7 @@ Drawing drawing_of(const Picture& picture, const std::vector<std::vector<io::Sto
   drawing.maximum = picture.maximum.value_or(none);
   drawing.outline = picture.outline;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const io::StoredFrame& frame = chosen(series[i], picture.frame);
+    const io::StoredFrame& frame = chosen_frame(series[i], picture.frame);
     drawing.panels.push_back({fs::absolute(frame.file).string(), i < labels.size() ? labels[i] : "",
                               frame.time, 0, picture.clip, ""});
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -13,12 +14,13 @@ namespace tessera::post {
 namespace {
 
 /// Suffixes of history columns, longest first where one ends in another.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> suffixes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> suffixes{{
     {"_kgm2_s", "kg m²/s"},
     {"_kgm_s", "kg m/s"},
     {"_rad_s", "rad/s"},
     {"_m_s2", "m/s²"},
     {"_m_s", "m/s"},
+    {"_J_m3", "J/m³"},
     {"_m2", "m²"},
     {"_m3", "m³"},
     {"_m", "m"},
@@ -127,6 +129,22 @@ Quantity field_quantity(const std::string& name) {
   if (name == "area")
     return {"Boundary area", "m²", Palette::from_zero, 0};
   return {name, "", Palette::spread, 0};
+}
+
+const std::vector<std::string>& component_names(int components) {
+  static const std::vector<std::string> none, vector{"x", "y", "z"},
+      symmetric{"xx", "yy", "zz", "xy", "yz", "xz"},
+      full{"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+  return components == 3 ? vector : components == 6 ? symmetric : components == 9 ? full : none;
+}
+
+std::string field_column(const std::string& name) {
+  std::string column = name;
+  std::replace(column.begin(), column.end(), '.', '_');
+  const std::string unit = field_quantity(name).unit;
+  const auto suffix =
+      std::find_if(suffixes.begin(), suffixes.end(), [&](const auto& s) { return s.second == unit; });
+  return suffix == suffixes.end() ? column : column + std::string(suffix->first);
 }
 
 Quantity column_quantity(const std::string& name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tessera::post {
 
@@ -22,6 +23,13 @@ struct Quantity {
 /// Of a point array of a frame or a cloud; `name` may end in a component (".x", ".xy"). Unknown names stand
 /// for themselves.
 Quantity field_quantity(const std::string& name);
+
+/// What the components of an array are called: "x" to "z", "xx" to "xz" of a symmetric tensor in ParaView's
+/// order, "xx" to "zz" of a full one row by row; none for numbers and other lengths.
+const std::vector<std::string>& component_names(int components);
+
+/// The field as the name of a column, its unit the suffix: "Stress.xy" becomes "Stress_xy_Pa".
+std::string field_column(const std::string& name);
 
 /// Of a column of history.csv, whose unit is its suffix: "radius_m" is "Radius" in m, "plastic_strain" a pure
 /// number.

@@ -20,8 +20,16 @@ void compare(const Options& options) {
             folder.string(), "name the folders runs wrote to, for example runs/taylor_bar");
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path("runs") / "compare" : options.output;
-  open_folder(output);
-  const post::Comparison comparison = post::compare(options.folders, output, console.progress());
+  post::Sight sight{options.fields,
+                    options.time,
+                    options.view,
+                    options.clip == "none" ? "" : options.clip,
+                    {},
+                    options.reference ? post::Configuration::reference : post::Configuration::current};
+  for (const std::string& section : options.sections)
+    sight.sections.push_back(post::section_from(section));
+  const RunFolder folder(output); // gone again where the runs turn out not to hold what is asked for
+  const post::Comparison comparison = post::compare(options.folders, output, console.progress(), sight);
 
   std::string text = post::table(comparison) + fmt::format("\nin {}:", output.string());
   for (const auto& file : comparison.files)

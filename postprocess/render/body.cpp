@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/neighbours.hpp"
 #include "io/vtk_write.hpp"
+#include "postprocess/quantity.hpp"
 
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -45,11 +46,9 @@ constexpr double radius_over_spacing = 0.71;
 
 /// Component of "xx" or "x" in a tuple; -1 where there is none.
 int component_index(const std::string& name, int components) {
-  static const std::vector<std::string> vector{"x", "y", "z"}, tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
-  const auto& names = components == 6 ? tensor : vector;
+  const auto& names = component_names(components);
   const auto found = std::find(names.begin(), names.end(), name);
-  const auto index = static_cast<int>(found - names.begin());
-  return index < components ? index : -1;
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 std::vector<double> values_of(vtkPointSet& set, const std::string& field, const std::string& file) {
@@ -69,8 +68,9 @@ std::vector<double> values_of(vtkPointSet& set, const std::string& field, const 
                                                  : component_index(field.substr(dot + 1), components);
   const bool magnitude = dot == std::string::npos && components == 3;
   require(component >= 0 || magnitude, fmt::format("field '{}' is no single number", field), file,
-          fmt::format("name a component: {}",
-                      components == 6 ? name + ".xx, .yy, .zz, .xy, .yz, .xz" : name + ".x, .y, .z"));
+          components == 1
+              ? fmt::format("'{}' has no components", name)
+              : fmt::format("name a component: {}.{}", name, fmt::join(component_names(components), ", .")));
   std::vector<double> values(static_cast<std::size_t>(set.GetNumberOfPoints()));
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto p = static_cast<vtkIdType>(i);

@@ -116,6 +116,31 @@ TEST(Run, PicturesAndComparison) {
   EXPECT_NE(compared.out.find("225"), std::string::npos) << compared.out;
   EXPECT_TRUE(fs::exists(place / "c" / "compare.json"));
   EXPECT_TRUE(fs::exists(place / "c" / "compare.csv"));
+  EXPECT_NE(compared.out.find("difference from the first"), std::string::npos) << compared.out;
+
+  // A line upwards through the box of 10 x 10 x 20 mm.
+  const Result cut =
+      place.tessera({"compare", "a", "b", "-o", "d", "--field", "Pressure", "--section",
+                     "0.003,0.003,0.002:0.003,0.003,0.018", "--time", "first", "--clip", "none"},
+                    screen);
+  ASSERT_EQ(cut.status, 0) << cut.err;
+  for (const char* name : {"compare_section_1.csv", "compare_section_1.png", "compare_pressure.png"})
+    EXPECT_TRUE(fs::exists(place / "d" / name)) << name << "\n" << cut.err;
+  expect_error(place.tessera({"compare", "a", "b", "-o", "e", "--field", "Presure"}),
+               {"did you mean 'Pressure'"});
+  expect_error(place.tessera({"compare", "a", "b", "-o", "e", "--section", "1,1,1:2,2,2"}),
+               {"does not meet"});
+  expect_error(place.tessera({"compare", "a", "b", "-o", "e", "--section", "-1,1"}),
+               {"'-1,1' is no section"});
+  expect_error(place.tessera({"compare", "a", "b", "-o", "e", "--time", "later"}),
+               {"'later' names no frame"});
+  EXPECT_FALSE(fs::exists(place / "e"));
+
+  const Result exported = place.tessera({"export", "a", "--time", "first"});
+  ASSERT_EQ(exported.status, 0) << exported.err;
+  EXPECT_NE(exported.out.find("225 particles"), std::string::npos) << exported.out;
+  EXPECT_TRUE(fs::exists(place / "a" / "fields_0000.csv"));
+  expect_error(place.tessera({"export", "nowhere"}), {"there are no stored fields", "nowhere"});
 }
 
 } // namespace
