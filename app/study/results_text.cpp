@@ -2,6 +2,7 @@
 
 #include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
+#include "postprocess/csv.hpp"
 #include "postprocess/quantity.hpp"
 
 #include <fmt/format.h>
@@ -18,19 +19,6 @@ using post::figure;
 
 std::string percent(double error) {
   return std::isfinite(error) ? fmt::format("{} %", figure(100 * error)) : "-";
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos)
-    return text;
-  std::string out = "\"";
-  for (const char c : text)
-    out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
-std::string csv_cell(double value) {
-  return std::isfinite(value) ? fmt::format("{}", value) : "";
 }
 
 std::string markdown_cell(const std::string& text) {
@@ -146,20 +134,19 @@ std::string recommendations_text(const Study& study, const Results& results) {
 std::string results_csv(const Study& study, const Results& results) {
   std::vector<std::string> cells;
   for (const Axis& axis : study.axes)
-    cells.push_back(csv_cell(axis.name));
-  std::string text =
-      fmt::format("{},particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n",
-                  fmt::join(cells, ","));
+    cells.push_back(axis.name);
+  for (const char* column : {"particles", "steps", "error", "cpu_seconds", "setup_seconds", "peak_bytes",
+                             "front", "run", "failure"})
+    cells.emplace_back(column);
+  std::string text = post::csv_line(cells);
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const Row& row = results.rows[i];
-    cells.clear();
-    for (const std::string& label : row.labels)
-      cells.push_back(csv_cell(label));
+    cells = row.labels;
     for (const double value :
          {row.particles, row.steps, row.error, row.cpu_seconds, row.setup_seconds, row.peak_bytes})
-      cells.push_back(csv_cell(value));
-    cells.insert(cells.end(), {on_front(results, i) ? "1" : "0", "runs/" + row.id, csv_cell(row.failure)});
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+      cells.push_back(std::isfinite(value) ? fmt::format("{}", value) : "");
+    cells.insert(cells.end(), {on_front(results, i) ? "1" : "0", "runs/" + row.id, row.failure});
+    text += post::csv_line(cells);
   }
   return text;
 }

@@ -27,8 +27,9 @@ TEST(Usage, VersionAndHelp) {
 
 TEST(Usage, WrongCommandsAndOptions) {
   const Workplace place;
-  expect_error(place.tessera({}),
-               {"no command", "run, prepare, solve, post, check, compare, export, study, stability, materials"});
+  expect_error(
+      place.tessera({}),
+      {"no command", "run, prepare, solve, post, check, compare, export, study, stability, materials"});
   expect_error(place.tessera({"rum", "case.toml"}), {"unknown command 'rum'", "did you mean 'run'"});
   expect_error(place.tessera({"run", "case.toml", "--thread", "2"}),
                {"unknown option '--thread'", "did you mean '--threads'", "tessera run --help"});
