@@ -203,12 +203,12 @@ std::vector<Snapshot> snapshots_of(const std::vector<fs::path>& folders, const s
     first = std::min(first, snapshot.frame.time);
     last = std::max(last, snapshot.frame.time);
   }
+  const std::string at = first == last ? with_unit(first, "s")
+                                       : fmt::format("{} to {}", with_unit(first, "s"), with_unit(last, "s"));
   if (named && std::max(std::abs(first - asked), std::abs(last - asked)) > 0.01 * std::abs(asked))
-    progress.note(fmt::format("the frames nearest to {} are at {} and {}", with_unit(asked, "s"),
-                              with_unit(first, "s"), with_unit(last, "s")));
+    progress.note(fmt::format("the frames nearest to {} are at {}", with_unit(asked, "s"), at));
   else if (last - first > 0.01 * last)
-    progress.note(fmt::format("the frames compared lie apart in time: {} to {}", with_unit(first, "s"),
-                              with_unit(last, "s")));
+    progress.note(fmt::format("the frames compared lie apart in time: {}", at));
   return snapshots;
 }
 
@@ -257,7 +257,7 @@ std::vector<fs::path> draw_sections(const std::vector<SectionCurves>& sections,
           fmt::format("{}, {}", figure(length.factor * point[0]), figure(length.factor * point[1]));
       if (snapshots.front().cloud.dimension == 3)
         text += ", " + figure(length.factor * point[2]);
-      return "(" + text + ")";
+      return fmt::format("({})", text);
     };
     job.plots.push_back(
         {fs::absolute(fs::path(stem) += ".png").string(),

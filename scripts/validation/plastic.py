@@ -220,7 +220,8 @@ def taylor_bar_unstructured(bench):
 
 def taylor_row(bench, table, count, cloud, subvolumes, jst4, seed):
     run = bench.run("taylor_bar/voronoi.toml", f"{count}_{cloud}_{subvolumes}_{seed}", rows=400, frames=5,
-                    particles__count=count, particles__seed=seed, particles__subvolumes=f'"{subvolumes}"', particles__relax=20 * (cloud == "relaxed"),
+                    particles__count=count, particles__seed=seed,
+                    particles__subvolumes=f'"{subvolumes}"', particles__relax=20 * (cloud == "relaxed"),
                     solver__scheme='"thesis"', solver__jst4=float(fractions.Fraction(jst4)))
     words = (count, cloud, subvolumes, jst4, seed)
     if run.good:

@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "io/field_series.hpp"
+#include "io/frame_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -128,6 +129,25 @@ TEST(FrameSeries, DamagedListsAreRefused) {
     test::store(folder / "fields.pvd", text);
     EXPECT_THROW(read_series(folder.path()), InputError) << text;
   }
+}
+
+TEST(ReadFrame, GivesBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  const Line line;
+  FrameSeries(folder.path()).write(line.at(8e-5));
+  const std::filesystem::path file = folder / "fields/fields_0000.vtu";
+  const StoredFields frame = read_frame(file);
+  EXPECT_EQ(frame.time, 8e-5);
+  ASSERT_EQ(frame.x.size(), 100u);
+  EXPECT_EQ(frame.x[7], Vec3(7, 1.5, 2));
+  ASSERT_EQ(frame.fields.size(), 3u);
+  EXPECT_EQ(frame.fields[1].name, "Stress");
+  EXPECT_EQ(frame.fields[1].components, 6);
+  EXPECT_EQ(frame.fields[1].values, line.stress);
+  EXPECT_EQ(frame.fields[2].values, line.id);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THROW(read_frame(file), InputError);
+  EXPECT_THROW(read_frame(folder / "none.vtu"), InputError);
 }
 
 } // namespace

@@ -53,5 +53,21 @@ TEST(Quantity, FieldsAreNamedInWords) {
   EXPECT_EQ(field_quantity("Temperature").label, "Temperature");
 }
 
+TEST(Quantity, FieldsAsColumnsEndInTheirUnit) {
+  EXPECT_EQ(field_column("Stress.xy"), "Stress_xy_Pa");
+  EXPECT_EQ(field_column("Velocity.x"), "Velocity_x_m_s");
+  EXPECT_EQ(field_column("StrainEnergy"), "StrainEnergy_J_m3");
+  EXPECT_EQ(field_column("LodeAngle"), "LodeAngle_deg");
+  EXPECT_EQ(field_column("PlasticStrain"), "PlasticStrain");
+  EXPECT_EQ(column_quantity("StrainEnergy_J_m3").unit, "J/m³");
+}
+
+TEST(Quantity, ComponentsHaveParaViewsOrder) {
+  EXPECT_EQ(component_names(3), (std::vector<std::string>{"x", "y", "z"}));
+  EXPECT_EQ(component_names(6)[4], "yz");
+  EXPECT_EQ(component_names(9)[3], "yx");
+  EXPECT_TRUE(component_names(1).empty());
+}
+
 } // namespace
 } // namespace tessera::post
