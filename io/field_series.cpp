@@ -15,7 +15,6 @@
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLUtilities.h>
 
@@ -139,24 +138,6 @@ std::vector<StoredFrame> read_series(const fs::path& folder) {
   std::stable_sort(frames.begin(), frames.end(),
                    [](const StoredFrame& a, const StoredFrame& b) { return a.time < b.time; });
   return frames;
-}
-
-std::vector<double> read_field(const fs::path& frame, const std::string& name) {
-  require_complete(frame);
-  const VtkMessages messages;
-  const vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(frame.c_str());
-  reader->Update();
-  require(messages.text().empty() && reader->GetOutput() != nullptr,
-          fmt::format("the file is damaged: {}", messages.last()), frame.string(), "run the case again");
-  vtkDataArray* array = reader->GetOutput()->GetPointData()->GetArray(name.c_str());
-  require(array != nullptr, fmt::format("the frame has no field '{}'", name), frame.string(),
-          "run the case again");
-  std::vector<double> values;
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-    for (int c = 0; c < array->GetNumberOfComponents(); ++c)
-      values.push_back(array->GetComponent(i, c));
-  return values;
 }
 
 } // namespace tessera::io

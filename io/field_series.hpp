@@ -33,8 +33,4 @@ struct StoredFrame {
 /// The frames fields.pvd lists, in order of time; InputError when there are none.
 std::vector<StoredFrame> read_series(const std::filesystem::path& folder);
 
-/// A field of a stored frame, particle by particle with all components; InputError when it has none of that
-/// name.
-std::vector<double> read_field(const std::filesystem::path& frame, const std::string& name);
-
 } // namespace tessera::io

@@ -2,10 +2,8 @@
 
 #include "app/study/stored_summary.hpp"
 #include "core/error.hpp"
-#include "io/cloud_file.hpp"
-#include "io/field_series.hpp"
 #include "io/history.hpp"
-#include "solver/operators/sampling.hpp"
+#include "postprocess/field_difference.hpp"
 
 #include <fmt/format.h>
 
@@ -17,9 +15,6 @@ namespace tessera::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Of the finer run's particles: more would only take longer.
-constexpr std::size_t most_points = 2000;
 
 TimeSeries series(const io::History& history, const std::string& time, const std::string& column) {
   return {history.column(time), history.column(column)};
@@ -44,36 +39,6 @@ double interpolated(const TimeSeries& s, double t) {
   const auto b = std::min(static_cast<std::size_t>(after), s.time.size() - 1), a = b > 0 ? b - 1 : 0;
   const double width = s.time[b] - s.time[a];
   return width > 0 ? s.value[a] + (s.value[b] - s.value[a]) * (t - s.time[a]) / width : s.value[b];
-}
-
-struct Sampled {
-  double difference = 0, truth = 0; ///< squares times volumes
-  std::size_t points = 0;
-};
-
-template <int D>
-Sampled sample(const ParticleCloud& cloud, const std::vector<double>& values, const ParticleCloud& fine,
-               const std::vector<double>& true_values) {
-  const std::size_t components = true_values.size() / fine.X.size();
-  const std::size_t stride = fine.X.size() / most_points + 1;
-  Sampled result;
-  for (std::size_t i = 0; i < fine.X.size(); i += stride) {
-    std::optional<solver::Sampling> sampling;
-    try {
-      sampling = solver::build_sampling<D>(fine.X[i], cloud.X, cloud.V, cloud.hidden);
-    } catch (const InputError&) {
-      continue; // outside of a coarse cloud that does not fill the body's curves
-    }
-    ++result.points;
-    for (std::size_t c = 0; c < components; ++c) {
-      const double v =
-          (*sampling)([&](std::int32_t b) { return values[static_cast<std::size_t>(b) * components + c]; });
-      const double truth = true_values[i * components + c];
-      result.difference += fine.V[i] * (v - truth) * (v - truth);
-      result.truth += fine.V[i] * truth * truth;
-    }
-  }
-  return result;
 }
 
 } // namespace
@@ -136,16 +101,12 @@ double Measure::of_field(const fs::path& folder) const {
   const std::string field = measure_.name == "displacement" ? "Displacement"
                             : measure_.name == "velocity"   ? "Velocity"
                                                             : "Pressure";
-  const auto values = [&](const fs::path& of) {
-    return io::read_field(io::read_series(of).back().file, field);
-  };
-  const ParticleCloud cloud = io::read_cloud(folder / "cloud.vtp"),
-                      fine = io::read_cloud(finer_ / "cloud.vtp");
-  const Sampled sampled = fine.dimension == 3 ? sample<3>(cloud, values(folder), fine, values(finer_))
-                                              : sample<2>(cloud, values(folder), fine, values(finer_));
-  require(sampled.points > 0, "none of the finer run's particles lies in the body of this one",
+  const post::Difference difference =
+      post::differences_from_first({post::read_snapshot(finer_), post::read_snapshot(folder)}, {field})
+          .back();
+  require(difference.points > 0, "none of the finer run's particles lies in the body of this one",
           folder.string(), "let [error.finer] keep the geometry");
-  return std::sqrt(sampled.difference / sampled.truth);
+  return difference.fields.front().relative.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 } // namespace tessera::app

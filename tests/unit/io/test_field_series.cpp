@@ -60,18 +60,6 @@ TEST(FrameSeries, AFrameHoldsTheDeformedBodyAndItsFields) {
   EXPECT_EQ(grid->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 8e-5);
 }
 
-TEST(FrameSeries, AFieldOfAFrameComesBack) {
-  const TemporaryFolder folder;
-  const Line line;
-  FrameSeries(folder.path()).write(line.at(8e-5));
-  const std::filesystem::path frame = read_series(folder.path()).back().file;
-  const std::vector<double> stress = read_field(frame, "Stress");
-  ASSERT_EQ(stress.size(), 600U);
-  EXPECT_EQ(stress[6 * 7 + 5], 705);
-  EXPECT_THROW(read_field(frame, "Temperature"), InputError);
-  EXPECT_THROW(read_field(folder / "none.vtu", "Stress"), InputError);
-}
-
 TEST(FrameSeries, IsReadableAfterEveryFrame) {
   const TemporaryFolder folder;
   const Line line;
