@@ -95,7 +95,7 @@ void add_run(Document& report, const std::vector<Figure>& summary) {
       {"Momenta", {"momentum."}},
       {"Cost",
        {"wall_seconds", "cpu_seconds", "setup_seconds", "us_per_particle_step", "threads",
-        "bytes_per_particle", "memory_peak_bytes"}}};
+        "bytes_per_particle", "peak_bytes"}}};
   std::vector<Figure> rest = summary;
   std::erase_if(rest, [](const Figure& figure) { return figure.key == "title"; });
   std::vector<std::pair<const char*, std::vector<Figure>>> groups;
