@@ -1,7 +1,9 @@
 #include "postprocess/csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tessera::post {
@@ -19,10 +21,9 @@ std::string quoted(const std::string& text) {
 } // namespace
 
 std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    line += (i == 0 ? "" : ",") + quoted(cells[i]);
-  return line + '\n';
+  std::vector<std::string> safe(cells.size());
+  std::transform(cells.begin(), cells.end(), safe.begin(), quoted);
+  return fmt::format("{}\n", fmt::join(safe, ","));
 }
 
 std::string csv_number(double value) {
