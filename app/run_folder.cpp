@@ -33,11 +33,13 @@ fs::path default_folder(const Case& the_case) {
   return fs::path("runs") / the_case.name;
 }
 
-void open_folder(const fs::path& folder) {
+void open_folder(const fs::path& folder, bool of_study) {
   std::error_code failed;
   if (fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) && !failed)
-    require(is_ours(folder), "the output folder holds files that are not a run's", folder.string(),
-            "name an empty or new folder with -o");
+    require(is_ours(folder) && fs::exists(folder / "study.toml") == of_study,
+            of_study ? "the output folder holds files that are not a study's"
+                     : "the output folder holds files that are not a run's",
+            folder.string(), "name an empty or new folder with -o");
   io::make_output_folder(folder);
 }
 

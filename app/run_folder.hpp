@@ -11,8 +11,8 @@ namespace tessera::app {
 std::filesystem::path default_folder(const Case& the_case);
 
 /// Creates the folder and proves that files can be written in it. InputError when they cannot, or when the
-/// folder already holds files but none of ours.
-void open_folder(const std::filesystem::path& folder);
+/// folder already holds files but none of ours: a study's folder is no run's, nor the other way round.
+void open_folder(const std::filesystem::path& folder, bool of_study = false);
 
 /// The folder of a run to come: opened at once, so that it is known to be writable before any work is done.
 /// One that was made for it and is still empty in the end (the input was refused) goes again.

@@ -49,7 +49,7 @@ std::string spectrum_text(const StabilityFindings& findings, const Spectrum& spe
                    ? fmt::format("{:.3g} 1/s: the operators feed a field, {:.2g} of it in a run's step",
                                  spectrum.growth_rate, std::expm1(spectrum.growth_rate * findings.dt))
                    : "none");
-  return text + line(spectrum.grows ? "largest step that adds none" : "largest stable step",
+  return text + line(spectrum.grows ? "step that adds up to a tenth" : "largest stable step",
                      largest_step_text(findings, spectrum.largest_step));
 }
 
@@ -140,8 +140,10 @@ post::Plot eigenvalue_plot(const StabilityFindings& findings, const Spectrum& sp
   plot.file = std::filesystem::absolute(file).string();
   plot.charts = {chart_at("Eigenvalues times a run's step", findings, spectrum, findings.dt)};
   if (spectrum.largest_step && *spectrum.largest_step > 0 && std::isfinite(*spectrum.largest_step))
-    plot.charts.push_back(
-        chart_at("Eigenvalues times the largest stable step", findings, spectrum, *spectrum.largest_step));
+    plot.charts.push_back(chart_at(spectrum.grows
+                                       ? "Eigenvalues times the step that adds up to a tenth to the growth"
+                                       : "Eigenvalues times the largest stable step",
+                                   findings, spectrum, *spectrum.largest_step));
   return plot;
 }
 

@@ -148,7 +148,8 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
   table.finish();
 
   const bool word = picture.frame == "last" || picture.frame == "first";
-  if (!word && picture.frame.find_first_not_of("0123456789.e+-") != std::string::npos)
+  if (!word && (picture.frame.starts_with('-') ||
+                picture.frame.find_first_not_of("0123456789.e+-") != std::string::npos))
     table.refuse("frame", fmt::format("a picture's frame is {}", in_quotes(picture.frame)),
                  "it must be \"first\", \"last\" or a time in seconds");
   if (picture.minimum && picture.maximum && *picture.minimum >= *picture.maximum)

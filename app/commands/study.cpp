@@ -58,7 +58,7 @@ void study(const Options& options) {
   const fs::path folder =
       fs::absolute(options.output.empty() ? fs::path("runs") / study.name : options.output)
           .lexically_normal();
-  open_folder(folder);
+  open_folder(folder, true);
   store_input(folder / "study.toml", study.path, options.overrides, study.text);
   io::make_output_folder(folder / "cases");
   const RunStore store(folder);

@@ -1,9 +1,12 @@
 /// From a scene's entries and a cloud's sets to the conditions a step knows, and the state it begins with.
 #pragma once
 
+#include "core/error.hpp"
 #include "core/particle_cloud.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/time/step.hpp"
+
+#include <fmt/format.h>
 
 #include <vector>
 
@@ -29,14 +32,23 @@ std::vector<Vec<D>> initial_positions(const SceneSpec& scene, const ParticleClou
 template <int D>
 std::vector<Mat<D>> initial_gradients(const SceneSpec& scene, const ParticleCloud& cloud);
 
-/// Gives a body at rest the state its scene begins with.
+/// Gives a body at rest the state its scene begins with. InputError where that turns it inside out.
 template <class Body>
 void set_initial(const SceneSpec& scene, const ParticleCloud& cloud, Body& body) {
   constexpr int D = Body::dimension;
   body.U.p = initial_momenta<D>(scene, cloud);
   if (std::vector<Vec<D>> x = initial_positions<D>(scene, cloud); !x.empty()) {
     body.deform(std::move(x), initial_gradients<D>(scene, cloud));
-    body.commit();
+    try {
+      body.commit();
+    } catch (const Breakdown& breakdown) {
+      const Vec3 X = cloud.X[static_cast<std::size_t>(breakdown.particle)];
+      throw InputError(
+          fmt::format(
+              "the initial displacement makes the volume ratio J {:.3g} at ({:.4g}, {:.4g}, {:.4g}) m",
+              breakdown.J, X[0], X[1], X[2]),
+          "[[initial]] displacement", "displace the body so that it is nowhere turned inside out");
+    }
   }
 }
 

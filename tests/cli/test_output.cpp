@@ -138,6 +138,15 @@ TEST(Output, DerivedFieldsAreStoredWhereAskedForOrDrawn) {
                {"Lodeangle", "LodeAngle"});
 }
 
+TEST(Output, ADisplacementThatTurnsTheBodyInsideOutIsRefused) {
+  const Workplace place;
+  write_small_case(place);
+  for (const char* command : {"run", "check"})
+    expect_error(
+        place.tessera({command, "case.toml", "--quiet", "--set", "initial.0.displacement=[\"-2*X\", 0, 0]"}),
+        {"volume ratio J -1", "initial", "inside out"});
+}
+
 TEST(Output, DefaultFolderIsNamedAfterTheCase) {
   const Workplace place;
   write_small_case(place);

@@ -31,11 +31,13 @@ TEST(Stability, WithoutACaseIsTheModelOfChapterFour) {
   EXPECT_EQ(result.status, 0) << result.err;
   const Json json = Json::parse(result.out);
   EXPECT_EQ(json["tables"].size(), 2U);
-  for (const Json& limit : json["limits"])
-    if (limit["kappa4"] == 0.0)
+  for (const Json& limit : json["limits"]) {
+    if (limit["kappa4"] == 0.0) {
       EXPECT_EQ(limit["courant"], 0.0);
-    else if (limit["kappa4"] == 0.125)
+    } else if (limit["kappa4"] == 0.125) {
       EXPECT_NEAR(limit["courant"].get<double>(), 1, 1e-9);
+    }
+  }
   EXPECT_EQ(place.read("study/stability.json"), result.out);
   EXPECT_EQ(lines(place.read("study/waves.csv")).size(), 1U + 4 * 721);
   EXPECT_EQ(lines(place.read("study/kernels.csv")).size(), 1U + 5 + 7);

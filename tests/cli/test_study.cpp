@@ -85,6 +85,18 @@ TEST(Study, RunsTheGridAndOnlyOnce) {
   EXPECT_NE(more.err.find("3 runs, 1 of them to do"), std::string::npos) << more.err;
 }
 
+TEST(Study, AStudysFolderIsNoRunsNorTheOtherWayRound) {
+  const Workplace place;
+  write_small_case(place);
+  ASSERT_EQ(place.tessera({"run", "case.toml", "--quiet", "--no-pictures", "-o", "run"}).status, 0);
+  place.write("study.toml", study_head + by_length + by_spacing);
+  expect_error(place.tessera({"study", "study.toml", "-o", "run"}),
+               {"not a study's", "name an empty or new folder"});
+  place.write("study/study.toml", "# Written by tessera\n");
+  expect_error(place.tessera({"run", "case.toml", "-o", "study"}),
+               {"not a run's", "name an empty or new folder"});
+}
+
 TEST(Study, InterruptedGoesOnWhereItWas) {
   const Workplace place;
   write_small_case(place);
@@ -200,7 +212,7 @@ TEST(Study, BadInputIsOneLineAndLeavesNothing) {
   expect_error(place.tessera({"study", "none.toml"}), {"cannot open the study file", "none.toml"});
   place.write("study.toml", study_head + by_length + by_spacing);
   place.write("mine/notes.txt", "do not lose me");
-  expect_error(place.tessera({"study", "study.toml", "--quiet", "-o", "mine"}), {"not a run's"});
+  expect_error(place.tessera({"study", "study.toml", "--quiet", "-o", "mine"}), {"not a study's"});
 }
 
 } // namespace
