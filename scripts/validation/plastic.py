@@ -193,7 +193,7 @@ def taylor_bar(bench):
         run = bench.run(case, f"lattice_{1e3 * spacing:.2f}", rows=400, particles__spacing=spacing)
         table.row(f"{1e3 * spacing:.2f}", run["particles"], 1e3 * run["probes.radius_m"],
                   1e3 * (run["probes.radius_m"] + 0.5 * spacing), 1e3 * run["probes.length_m"],
-                  run["probes.plastic_strain"], run["steps"], min(run.history["dt_s"][1:]))
+                  run["probes.plastic_strain"], run["steps"], run["dt_min"])
         if spacing == 0.00064:
             thesis_bar(bench, run)
             taylor_history(bench, run, "taylor_history")
