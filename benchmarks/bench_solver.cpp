@@ -105,6 +105,19 @@ void correction(benchmark::State& state) {
   state.counters["neighbours"] = graph.mean();
 }
 
+/// Runs the scene by run()'s own clock.
+void time_steps(benchmark::State& state, const SceneSpec& scene, const ParticleCloud& cloud) {
+  double ns = 0, neighbours = 0;
+  for (auto _ : state) {
+    const Summary summary = run(scene, cloud, {}, Progress::silent());
+    state.SetIterationTime(summary.wall_seconds);
+    ns += 1e3 * summary.us_per_particle_step;
+    neighbours = summary.neighbours_mean;
+  }
+  state.counters["ns/particle/step"] = ns / static_cast<double>(state.iterations());
+  state.counters["neighbours"] = neighbours;
+}
+
 /// Steps of an elastic cube of range(0)^3 particles by scheme and method, at the scheme's own support or,
 /// where range(1) > 0, at range(1) / 10 spacings.
 void scheme_step(benchmark::State& state, const std::string& scheme, const std::string& integrator) {
@@ -120,32 +133,16 @@ void scheme_step(benchmark::State& state, const std::string& scheme, const std::
     scene.support = static_cast<double>(state.range(1)) / 10;
   scene.initial = {{"all", Formulas{Expression("X*Y"), Expression("Y*Z"), Expression("Z*X")}, std::nullopt}};
   scene.end_time = 20 * forecast(scene, cloud).dt;
-  double ns = 0, neighbours = 0;
-  for (auto _ : state) {
-    const Summary summary = run(scene, cloud, {}, Progress::silent());
-    state.SetIterationTime(summary.wall_seconds);
-    ns += 1e3 * summary.us_per_particle_step;
-    neighbours = summary.neighbours_mean;
-  }
-  state.counters["ns/particle/step"] = ns / static_cast<double>(state.iterations());
-  state.counters["neighbours"] = neighbours;
+  time_steps(state, scene, cloud);
 }
 
-/// Whole steps (two stages) of a cylinder of `layers` layers of 81 particles, from run()'s own clock.
+/// Whole steps (two stages) of a cylinder of `layers` layers of 81 particles.
 void step(benchmark::State& state, const SceneSpec& base) {
   set_threads(static_cast<int>(state.range(1)));
   const auto cloud = test::cylinder_lattice(5, static_cast<int>(state.range(0)), 0.64e-3);
   SceneSpec scene = base;
   scene.end_time = 100 * forecast(scene, cloud).dt;
-  double ns = 0, neighbours = 0;
-  for (auto _ : state) {
-    const Summary summary = run(scene, cloud, {}, Progress::silent());
-    state.SetIterationTime(summary.wall_seconds);
-    ns += 1e3 * summary.us_per_particle_step;
-    neighbours = summary.neighbours_mean;
-  }
-  state.counters["ns/particle/step"] = ns / static_cast<double>(state.iterations());
-  state.counters["neighbours"] = neighbours;
+  time_steps(state, scene, cloud);
 }
 
 /// One wall's look at a plane body of range(0) particles across, of which one side's are in touch.

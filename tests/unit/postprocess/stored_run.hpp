@@ -14,6 +14,10 @@
 
 namespace tessera::test {
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// `radius` is the last value of the probe radius_m; `extra` goes into summary.json as it is.
 inline void store_run(const std::filesystem::path& folder, double radius, const std::string& extra = "") {
   std::filesystem::create_directories(folder);

@@ -10,12 +10,9 @@
 namespace tessera::post {
 namespace {
 
+using test::contains;
 using test::content;
 using test::TemporaryFolder;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::vector<std::string> row(const Comparison& comparison, const std::string& name) {
   const auto found = std::find(comparison.rows.begin(), comparison.rows.end(), name);

@@ -12,12 +12,9 @@
 namespace tessera::post {
 namespace {
 
+using test::contains;
 using test::content;
 using test::TemporaryFolder;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A lattice of 9 x 5 points 1 mm apart in the plane, sheared by x = X + Y/2, with fields linear in X and x.
 Snapshot sheared() {
