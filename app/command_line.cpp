@@ -141,6 +141,11 @@ struct Grammar {
                     "Draw the fields along a line, two points in m: x0,y0,z0:x1,y1,z1 (repeatable)")
         ->type_name("FROM:TO")
         ->allow_extra_args(false);
+    command
+        .add_option("--history", o.columns,
+                    "Draw a column of history.csv of all runs over each other, as kinetic_J (repeatable)")
+        ->type_name("COLUMN")
+        ->allow_extra_args(false);
     command.add_flag("--reference", o.reference, "Sections of the body as it was, not of the deformed one");
     command.add_option("--view", o.view, "front (unless given), back, left, right, top, bottom or iso")
         ->type_name("VIEW")

@@ -18,6 +18,7 @@ struct Options {
   std::vector<std::string> fields;        ///< compare: what is drawn; empty: chosen by the command
   std::string view = "front", clip = "y"; ///< compare: as a picture's; "none" does not clip
   std::vector<std::string> sections;      ///< compare: "x0,y0,z0:x1,y1,z1", m
+  std::vector<std::string> columns;       ///< compare: of history.csv
   bool reference = false;                 ///< compare: sections of the body as it was
   bool pictures = true;                   ///< run: draw and write the report
   bool retry = false;                     ///< study: also what failed before

@@ -150,7 +150,7 @@ std::vector<Table> evenness_tables(const Evenness& even) {
     row.push_back(fmt::format("{:.3f}", std::sqrt(square / static_cast<double>(sorted.size()))));
     tables.front().rows.push_back(row);
 
-    Table& shares = tables.emplace_back(Table{{name, "Particles", "Share"}, {}, true});
+    Table& shares = tables.emplace_back(Table{{name, "Particles", "Share"}, {}, 0});
     const Histogram classes = histogram(*values);
     for (std::size_t k = 0; k < classes.counts.size(); ++k)
       if (classes.counts[k] > 0)

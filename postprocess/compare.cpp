@@ -126,34 +126,53 @@ Document document_of(const Comparison& comparison) {
   return document;
 }
 
-/// The probes all runs share, over each other.
-std::vector<fs::path> draw_probes(const std::vector<fs::path>& folders, const std::vector<std::string>& names,
-                                  const fs::path& output, Progress& progress) {
+/// Columns of all runs' histories over each other: probes, forces, and those asked for, each with its file.
+std::vector<fs::path> draw_histories(const std::vector<fs::path>& folders,
+                                     const std::vector<std::string>& names,
+                                     const std::vector<std::string>& asked, const fs::path& output,
+                                     Progress& progress) {
   std::vector<io::History> histories;
   try {
     for (const fs::path& folder : folders)
       histories.push_back(io::read_history(folder / "history.csv"));
   } catch (const Error& error) {
-    progress.note(fmt::format("no picture of the probes: {}", error.what()));
+    if (!asked.empty())
+      throw;
+    progress.note(fmt::format("no curves over time: {}", error.what()));
     return {};
   }
   std::vector<NamedHistory> runs;
   for (std::size_t i = 0; i < names.size(); ++i)
     runs.push_back({names[i], &histories[i]});
-  Plot plot{fs::absolute(output / "compare_probes.png").string(), {}};
-  for (const std::string& column : probe_columns(histories.front())) {
-    const bool shared = std::all_of(histories.begin(), histories.end(), [&](const io::History& history) {
+  const auto shared = [&](const std::string& column) {
+    return std::all_of(histories.begin(), histories.end(), [&](const io::History& history) {
       return std::count(history.names.begin(), history.names.end(), column) > 0 &&
              !history.column(column).empty();
     });
-    const auto moves = [&](const io::History& history) {
-      const std::vector<double>& values = history.column(column);
-      return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
-    };
-    if (shared && std::any_of(histories.begin(), histories.end(), moves))
+  };
+  const auto moves = [&](const io::History& history, const std::string& column) {
+    const std::vector<double>& values = history.column(column);
+    return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+  };
+  RenderJob job;
+  const auto draw = [&](const char* file, const std::vector<std::string>& columns) {
+    Plot plot{fs::absolute(output / file).string(), {}};
+    for (const std::string& column : columns)
       plot.charts.push_back(chart_over_time(column_quantity(column).label, column, runs));
-  }
-  return plot.charts.empty() ? std::vector<fs::path>{} : render({{}, {plot}}, progress);
+    if (!plot.charts.empty())
+      job.plots.push_back(std::move(plot));
+  };
+  const auto telling = [&](std::vector<std::string> columns) {
+    std::erase_if(columns, [&](const std::string& column) {
+      return !shared(column) || std::none_of(histories.begin(), histories.end(),
+                                             [&](const auto& history) { return moves(history, column); });
+    });
+    return columns;
+  };
+  draw("compare_probes.png", telling(probe_columns(histories.front())));
+  draw("compare_forces.png", telling(force_columns(histories.front())));
+  draw("compare_history.png", asked); // a column that is not there is refused by its reader
+  return render(job, progress);
 }
 
 /// "PlasticStrain" becomes plastic_strain, "Stress.xy" stress_xy: for names of files.
@@ -322,7 +341,7 @@ Comparison compare(const std::vector<fs::path>& folders, const fs::path& output,
       values.push_back(figure ? shown(*figure, unit.factor) : "-");
   }
   for (const auto& drawn :
-       {draw_probes(folders, comparison.runs, output, progress),
+       {draw_histories(folders, comparison.runs, sight.columns, output, progress),
         draw_sections(sections, snapshots, comparison.runs, sight.configuration, output, progress),
         draw_fields(folders, comparison.runs, fields, sight, output, progress)})
     comparison.files.insert(comparison.files.end(), drawn.begin(), drawn.end());

@@ -14,6 +14,7 @@ namespace tessera::post {
 struct Sight {
   std::vector<std::string> fields; ///< none: PlasticStrain where a run flows, and VonMises
   std::string time = "last", view = "front", clip = "y"; ///< as in Picture
+  std::vector<std::string> columns;                      ///< of history.csv, to be drawn over each other
   std::vector<Section> sections;
   Configuration configuration = Configuration::current; ///< of the sections
 };
@@ -26,7 +27,8 @@ struct Comparison {
 };
 
 /// Reads summary.json, history.csv and a frame of each folder; writes compare.csv, compare.json, compare.md,
-/// compare.html, one PNG overlaying every probe that all histories share, side-by-side pictures of the
+/// compare.html, PNGs overlaying every probe, every force and the named
+/// columns that all histories share, side-by-side pictures of the
 /// fields, and a chart and a .csv of each section, into `output`. The table ends with each run's differences
 /// from the first (field_difference.hpp). InputError when a folder holds no finished run, or not what is
 /// asked for.

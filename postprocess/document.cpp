@@ -52,7 +52,7 @@ struct Markdown {
     };
     std::string out = line(table.header) + "|";
     for (std::size_t i = 0; i < table.header.size(); ++i)
-      out += i == 0 && !table.numbers_only ? ":--|" : "--:|";
+      out += i < table.words ? ":--|" : "--:|";
     out += "\n";
     for (const auto& row : table.rows)
       out += line(row);
@@ -132,11 +132,12 @@ struct Html {
                        escaped(image.file.stem().string()), base64_of(folder / image.file));
   }
   std::string operator()(const Table& table) const {
-    std::string out = table.numbers_only ? "<table class=\"numbers\">\n" : "<table>\n";
+    std::string out = "<table>\n";
     const auto line = [&](const std::vector<std::string>& cells, const char* tag) {
       out += "<tr>";
-      for (const std::string& cell : cells)
-        out += fmt::format("<{0}>{1}</{0}>", tag, escaped(cell));
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        out += fmt::format("<{0}{1}>{2}</{0}>", tag, i < table.words ? " class=\"words\"" : "",
+                           escaped(cells[i]));
       out += "</tr>\n";
     };
     bool headed = false;
@@ -161,8 +162,7 @@ constexpr const char* style =
     "img{max-width:100%;display:block;margin:1rem 0}"
     "table{border-collapse:collapse;margin:1rem 0}"
     "th,td{padding:.15rem .8rem;border-bottom:1px solid #ddd;text-align:right}"
-    "th:first-child,td:first-child{text-align:left}"
-    ".numbers th:first-child,.numbers td:first-child{text-align:right}"
+    ".words{text-align:left}"
     "pre{background:#f5f5f5;padding:.8rem;overflow-x:auto;font-size:.85rem}"
     "h2{margin-top:2.5rem;border-bottom:2px solid #ddd}";
 

@@ -29,11 +29,11 @@ struct Image {
   std::filesystem::path file; ///< relative to the folder
 };
 
-/// The first column reads from the left, numbers in all others line up on the right.
+/// The first columns read from the left, numbers in all others line up on the right.
 struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  bool numbers_only = false; ///< the first column, too, lines up on the right
+  std::size_t words = 1; ///< how many columns read from the left
 };
 
 /// Files of the document's folder, each with what it holds.

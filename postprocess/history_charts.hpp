@@ -15,8 +15,11 @@ struct NamedHistory {
   const io::History* history;
 };
 
-/// The columns a case asked for, in their order: all but those every history has.
+/// The columns of a case's probes, in their order: all but those every history has and those of forces.
 std::vector<std::string> probe_columns(const io::History& history);
+
+/// The columns of walls and supports that are more than noise beside the others of theirs.
+std::vector<std::string> force_columns(const io::History& history);
 
 /// `column` of each history against time, one curve a run, in readable units.
 Chart chart_over_time(const std::string& title, const std::string& column,
@@ -24,5 +27,11 @@ Chart chart_over_time(const std::string& title, const std::string& column,
 
 /// The energies of one run that are not zero throughout, and the balance error below them.
 std::vector<Chart> energy_charts(const std::string& title, const io::History& history);
+
+/// The components of the body's linear and of its angular momentum.
+std::vector<Chart> momentum_charts(const std::string& title, const io::History& history);
+
+/// One chart of the forces of each wall and each support on the body, and one of a wall's largest pressure.
+std::vector<Chart> force_charts(const io::History& history);
 
 } // namespace tessera::post

@@ -49,8 +49,9 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
         !entry.path().filename().string().starts_with("."))
       pictures.push_back(entry.path().filename());
   const auto rank = [](const fs::path& picture) {
-    const std::string name = picture.stem().string();
-    return name == "cloud" ? 3 : name == "probes" ? 1 : name == "energies" ? 2 : 0;
+    constexpr std::string_view last[] = {"probes", "forces", "energies", "momenta", "cloud"};
+    const auto found = std::find(std::begin(last), std::end(last), picture.stem().string());
+    return found == std::end(last) ? -1 : found - std::begin(last);
   };
   std::sort(pictures.begin(), pictures.end(), [&](const fs::path& a, const fs::path& b) {
     return rank(a) != rank(b) ? rank(a) < rank(b) : a < b;
@@ -179,7 +180,7 @@ void add_files(Document& report, const fs::path& folder) {
   const std::pair<const char*, const char*> known[] = {
       {"case.toml", "the case as it was run"},
       {"summary.json", "the figures above, SI units"},
-      {"history.csv", "energies, momenta and probes against time"},
+      {"history.csv", "energies, momenta, forces and probes against time"},
       {"fields.pvd", "the frames, for ParaView"},
       {"cloud.vtp", "the particles before the run, for ParaView and for --cloud"},
       {"cells.vtu", "their Voronoi cells"},
@@ -209,7 +210,8 @@ Document report_of(const fs::path& folder, const std::string& title, const std::
   return report;
 }
 
-/// energies.png and probes.png (of probes that are not zero throughout) from history.csv, where there is one.
+/// energies.png, momenta.png, forces.png and probes.png (of what is not zero throughout) from history.csv,
+/// where there is one.
 std::vector<Plot> history_plots(const fs::path& folder, const std::string& title, Progress& progress) {
   if (!fs::exists(folder / "history.csv"))
     return {};
@@ -223,7 +225,9 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
   }
   if (history.column("time_s").size() < 2)
     return {};
-  Plot energies{fs::absolute(folder / "energies.png").string(), energy_charts(title + ": energies", history)};
+  const auto plot = [&](const char* name, std::vector<Chart> charts) {
+    return Plot{fs::absolute(folder / name).string(), std::move(charts)};
+  };
   Plot probes{fs::absolute(folder / "probes.png").string(), {}};
   for (const std::string& column : probe_columns(history)) {
     const std::vector<double>& values = history.column(column);
@@ -231,9 +235,11 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
       probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
   }
   std::vector<Plot> plots;
-  for (Plot& plot : std::vector<Plot>{energies, probes})
-    if (!plot.charts.empty())
-      plots.push_back(std::move(plot));
+  for (Plot& drawn : std::vector<Plot>{plot("energies.png", energy_charts(title + ": energies", history)),
+                                       plot("momenta.png", momentum_charts(title + ": momenta", history)),
+                                       plot("forces.png", force_charts(history)), probes})
+    if (!drawn.charts.empty())
+      plots.push_back(std::move(drawn));
   return plots;
 }
 

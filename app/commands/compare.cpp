@@ -24,6 +24,7 @@ void compare(const Options& options) {
                     options.time,
                     options.view,
                     options.clip == "none" ? "" : options.clip,
+                    options.columns,
                     {},
                     options.reference ? post::Configuration::reference : post::Configuration::current};
   for (const std::string& section : options.sections)

@@ -11,6 +11,7 @@
 #include "io/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +78,10 @@ void study(const Options& options) {
     throw RunError("interrupted", fmt::format("{} of {} runs left to do", left, plan.runs.size()),
                    "run the same command again to go on");
   }
-  const bool picture = draw_pareto(study, results, folder, console.progress());
-  io::write_text(folder / "report.md", results_markdown(study, results, picture));
+  const std::vector<fs::path> pictures = draw_results(study, results, folder, console.progress());
+  const post::Document report = results_report(study, results, pictures);
+  io::write_text(folder / "report.md", post::markdown(report));
+  io::write_text(folder / "report.html", post::html(report, folder));
 
   const auto measured = std::count_if(results.rows.begin(), results.rows.end(),
                                       [](const Row& row) { return std::isfinite(row.error); });
@@ -86,13 +89,14 @@ void study(const Options& options) {
     throw RunError(
         fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
         folder.string(), "see report.md there");
-  console.result(
-      fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: study.csv, study.json, "
-                  "report.md{}\n",
-                  study.title, measured, measured == 1 ? "" : "s",
-                  results.rows.size() - static_cast<std::size_t>(measured),
-                  recommendations_text(study, results), folder.string(), picture ? ", pareto.png" : ""),
-      results_json(study, results));
+  std::string files = "study.csv, study.json, report.md, report.html";
+  for (const fs::path& picture : pictures)
+    files += fmt::format(", {}", picture.filename().string());
+  console.result(fmt::format("{}: {} run{} measured, {} without an error\n{}\nresults in {}: {}\n",
+                             study.title, measured, measured == 1 ? "" : "s",
+                             results.rows.size() - static_cast<std::size_t>(measured),
+                             fmt::join(recommendations_text(study, results), "\n"), folder.string(), files),
+                 results_json(study, results));
 }
 
 } // namespace tessera::app

@@ -4,6 +4,7 @@
 #include "app/study/plan.hpp"
 #include "app/study/run_store.hpp"
 #include "core/progress.hpp"
+#include "postprocess/document.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -25,7 +26,10 @@ struct Row {
   double setup_seconds = none; ///< before them, processor time too
   double peak_bytes = none;
   double particles = none, steps = none;
-  std::string failure; ///< why there are none; "not run" when it has not been yet
+  double spacing = none; ///< nominal, m
+  std::string failure;   ///< why there are none; "not run" when it has not been yet
+
+  std::string words() const; ///< the labels in a line
 };
 
 struct Recommendation {
@@ -37,6 +41,8 @@ struct Results {
   std::vector<Row> rows;
   std::vector<std::size_t> front; ///< of `rows`, by rising cost
   std::vector<Recommendation> recommendations;
+
+  bool on_front(std::size_t row) const;
 };
 
 /// Reads what the store holds. `passing`: by id, why runs failed that the store does not keep as failures.
@@ -46,15 +52,22 @@ Results collect_results(const Study& study, const Plan& plan, const RunStore& st
 /// "error of the velocity", "error of the probe tip".
 std::string error_words(const Study& study);
 
-/// "for 1 % ...: ... costs ... s", one line a target.
-std::string recommendations_text(const Study& study, const Results& results);
+/// "1.5 %"; "-" of what is no number.
+std::string percent(double error);
+
+/// "for 1 % ...: ... costs ... s", one a target.
+std::vector<std::string> recommendations_text(const Study& study, const Results& results);
 
 std::string results_csv(const Study& study, const Results& results);
 std::string results_json(const Study& study, const Results& results);
-std::string results_markdown(const Study& study, const Results& results, bool picture);
 
-/// pareto.png; false where it could not be drawn, with a note that says why.
-bool draw_pareto(const Study& study, const Results& results, const std::filesystem::path& folder,
-                 Progress& progress);
+/// The whole of it for people; `pictures`: those that were drawn.
+post::Document results_report(const Study& study, const Results& results,
+                              const std::vector<std::filesystem::path>& pictures);
+
+/// pareto.png, and convergence.png where an axis is a size; in `folder`. What could not be drawn, and why, is
+/// a note.
+std::vector<std::filesystem::path> draw_results(const Study& study, const Results& results,
+                                                const std::filesystem::path& folder, Progress& progress);
 
 } // namespace tessera::app

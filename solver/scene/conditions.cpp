@@ -81,6 +81,7 @@ std::vector<Vec<D>> across(const Vec3& n) {
 template <int D>
 VelocityCondition<D> velocity_condition(const BoundaryCondition& c, const ParticleCloud& cloud) {
   VelocityCondition<D> condition;
+  condition.support = c.on;
   if (c.kind == Kind::velocity)
     condition.velocity = given(c.values);
   if (c.kind == Kind::fixed || c.kind == Kind::velocity) {

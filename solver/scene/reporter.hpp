@@ -85,8 +85,11 @@ class Reporter {
   std::vector<std::string> columns() const {
     std::vector<std::string> names(history_columns.begin(), history_columns.end());
     for (const auto& wall : assembly_.step->walls())
-      for (const char* what : {"_force_x_N", "_force_y_N", "_force_z_N", "_friction_N", "_pressure_Pa"})
-        names.push_back(wall.name() + what);
+      for (const std::string_view what : wall_columns)
+        names.push_back(wall.name() + std::string(what));
+    for (const std::string& support : assembly_.step->held().supports())
+      for (const std::string_view what : reaction_columns)
+        names.push_back(support + std::string(what));
     for (const Probe& probe : scene_.probes)
       names.push_back(column_name(probe));
     return names;
@@ -127,24 +130,35 @@ class Reporter {
                                energy_.balance_error};
     row.insert(row.end(), m.linear.begin(), m.linear.end());
     row.insert(row.end(), m.angular.begin(), m.angular.end());
-    contact(time, row);
+    contact(time - last_row_time_, row);
+    support(time - last_row_time_, row);
+    last_row_time_ = time;
     for (ProbeReader& probe : probes_)
       row.push_back(probe.read(arrays_.probe_fields(cloud_)));
     outputs_.history_row(row);
   }
 
-  /// What the walls did since the last row: mean forces, and the largest pressure on a particle's own
-  /// surface.
-  void contact(double time, std::vector<double>& row) {
+  static void append(const Vec<Body::dimension>& force, std::vector<double>& row) {
+    Vec3 in_space = Vec3::Zero();
+    in_space.template head<Body::dimension>() = force;
+    row.insert(row.end(), in_space.begin(), in_space.end());
+  }
+
+  /// What the walls did in the time since the last row: mean forces, and the largest pressure on a particle's
+  /// own surface.
+  void contact(double elapsed, std::vector<double>& row) {
     for (auto& wall : assembly_.step->walls()) {
-      const auto report = wall.report(assembly_.body.V, boundary_area_, time - contact_since_);
-      Vec3 force = Vec3::Zero();
-      force.template head<Body::dimension>() = report.force;
-      row.insert(row.end(), force.begin(), force.end());
+      const auto report = wall.report(assembly_.body.V, boundary_area_, elapsed);
+      append(report.force, row);
       row.push_back(report.friction.norm());
       row.push_back(report.largest_pressure);
     }
-    contact_since_ = time;
+  }
+
+  /// The mean forces that held the body in that time.
+  void support(double elapsed, std::vector<double>& row) {
+    for (const auto& reaction : assembly_.step->held().report(assembly_.body.V, elapsed))
+      append(reaction.force, row);
   }
 
   void frame(double time, std::int64_t step) {
@@ -162,7 +176,7 @@ class Reporter {
   Assembly<Body>& assembly_;
   std::vector<ProbeReader> probes_;
   std::vector<double> boundary_area_; ///< m^2; empty where there is nothing to touch
-  double contact_since_ = 0;          ///< time of the last row, s
+  double last_row_time_ = 0;          ///< s
   FrameArrays arrays_;
   Momenta momenta_start_;
   double linear_scale_ = 0, angular_scale_ = 0;

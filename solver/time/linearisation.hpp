@@ -16,8 +16,7 @@ namespace tessera::solver {
 
 /// The free directions of every particle: columns of each.
 template <int D>
-std::vector<Eigen::Matrix<double, D, Eigen::Dynamic>> free_directions(std::size_t n,
-                                                                      const HeldVelocities<D>& held) {
+std::vector<Eigen::Matrix<double, D, Eigen::Dynamic>> free_directions(std::size_t n, HeldVelocities<D> held) {
   std::vector<Mat<D>> free(n);
   std::vector<Vec<D>> still(n, Vec<D>::Zero()), impulse(n, Vec<D>::Zero());
   held.apply(still, 1, 0, 0, impulse);

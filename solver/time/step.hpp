@@ -25,6 +25,7 @@ class Step {
 
   bool works() const { return works_; } ///< whether anything outside may work on the body
   std::vector<Wall<D>>& walls() { return outside_.walls; }
+  HeldVelocities<D>& held() { return outside_.held; }
 
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {

@@ -1,3 +1,4 @@
+#include "app/study/convergence.hpp"
 #include "app/study/measure.hpp"
 #include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
@@ -84,7 +85,8 @@ class StudyResults : public testing::Test {
       plan.runs.push_back({{study.axes[0].values[plan.runs.size()].label}, id, id, "", 1});
     std::filesystem::create_directories(store.run("a"));
     std::filesystem::create_directories(folder.path() / "cases");
-    folder.file("runs/a/summary.json", R"({"particles": 8, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
+    folder.file("runs/a/summary.json",
+                R"({"particles": 8, "spacing": 0.25, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
       "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
     store.keep_failure("b", "blew up");
   }
@@ -111,23 +113,50 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_EQ(results.rows[2].failure, "no memory");
   EXPECT_EQ(results.front, std::vector<std::size_t>{0});
   EXPECT_EQ(results_csv(study, results),
-            "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
-            "1,8,4,0.01,0.5,2,3000000,1,runs/a,\n"
-            "\"2, large\",,,,,,,0,runs/b,blew up\n"
-            "3,,,,,,,0,runs/c,no memory\n");
-  const std::string words = recommendations_text(study, results);
-  EXPECT_NE(
-      words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
-      std::string::npos)
-      << words;
-  EXPECT_NE(words.find("for 0.1 % velocity error: no run reaches it"), std::string::npos) << words;
-  const std::string report = results_markdown(study, results, true);
+            "size,particles,spacing,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
+            "1,8,0.25,4,0.01,0.5,2,3000000,1,runs/a,\n"
+            "\"2, large\",,,,,,,,0,runs/b,blew up\n"
+            "3,,,,,,,,0,runs/c,no memory\n");
+  EXPECT_EQ(
+      recommendations_text(study, results),
+      (std::vector<std::string>{"for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; "
+                                "its error is 1 %",
+                                "for 0.1 % velocity error: no run reaches it"}));
+  const std::string report = post::markdown(results_report(study, results, {folder.path() / "pareto.png"}));
   for (const char* piece :
-       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
+       {"# three", "](pareto.png)", "| 2, large | blew up |", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
         "| size | 10 % | 0.1 % |\n|:--|:--|:--|\n| 1 | 0.5 s | - |\n| 2, large | - | - |"})
     EXPECT_NE(report.find(piece), std::string::npos) << piece << "\n" << report;
   const std::string json = results_json(study, results);
   EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
+}
+
+/// Errors of h^2 on lattices and h on others, h = 1/2, 1/4, 1/8, in a disorder.
+TEST(Convergence, OrderOfEachCurveOfAtLeastThreeSizes) {
+  Study study;
+  study.axes = {
+      {"cloud", {{"lattice", {}}, {"raw", {}}, {"few", {}}}},
+      {"size",
+       {{"2", {"particles.count=8"}}, {"8", {"particles.count=512"}}, {"4", {"particles.count=64"}}}}};
+  study.colour = study.marker = "cloud";
+  Results results;
+  for (const auto& [cloud, order] : {std::pair{"lattice", 2}, {"raw", 1}})
+    for (const double n : {2., 8., 4.}) {
+      Row& row = results.rows.emplace_back();
+      row.labels = {cloud, std::to_string(static_cast<int>(n))};
+      row.spacing = 1 / n;
+      row.error = 3 * std::pow(row.spacing, order);
+    }
+  results.rows.push_back(results.rows.front());
+  results.rows.back().labels = {"few", "2"};
+  const std::vector<Convergence> all = convergence(study, results);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].labels, (std::map<std::string, std::string>{{"cloud", "lattice"}}));
+  EXPECT_EQ(all[0].spacing, (std::vector{0.5, 0.25, 0.125}));
+  EXPECT_NEAR(all[0].order, 2, 1e-12);
+  EXPECT_NEAR(all[1].order, 1, 1e-12);
+  study.colour = study.marker = "size";
+  EXPECT_TRUE(convergence(study, results).empty());
 }
 
 TEST_F(StudyResults, DamagedSummaryIsARowToo) {

@@ -12,7 +12,7 @@ using test::TemporaryFolder;
 const Document sample{"Bar & <wall>",
                       {Heading{2, "The run"}, Paragraph{"`v < c`, so *slow*; 2 * 3"}, Verbatim{"a < b\nc"},
                        Image{"my picture.png"}, Table{{"", "x|y"}, {{"Radius", "1 mm"}}},
-                       Table{{"h", "n"}, {{"1", "2"}}, true}, FileList{{{"a b.csv", "numbers"}}}}};
+                       Table{{"h", "n"}, {{"1", "2"}}, 0}, FileList{{{"a b.csv", "numbers"}}}}};
 
 TEST(Document, AsMarkdown) {
   EXPECT_EQ(markdown(sample), "# Bar & <wall>\n\n"
@@ -33,7 +33,7 @@ TEST(Document, AsOnePageWithItsPictures) {
        {"<title>Bar &amp; &lt;wall&gt;</title>", "<h1>Bar &amp; &lt;wall&gt;</h1>", "<h2>The run</h2>",
         "<p><code>v &lt; c</code>, so <em>slow</em>; 2 * 3</p>", "<pre>a &lt; b\nc</pre>",
         "<img alt=\"my picture\" src=\"data:image/png;base64,YWJjZA==\">", "<th>x|y</th>",
-        "<tr><td>Radius</td><td>1 mm</td></tr>", "<table class=\"numbers\">",
+        "<tr><td class=\"words\">Radius</td><td>1 mm</td></tr>", "<tr><td>1</td><td>2</td></tr>",
         "<a href=\"a%20b.csv\">a b.csv</a>: numbers"})
     EXPECT_NE(page.find(part), std::string::npos) << part << " is not in\n" << page;
   for (const char* outside : {"http", "//", "<script", "url("})

@@ -22,13 +22,14 @@ struct After {
 };
 
 VelocityCondition<3> along(std::int32_t particle, std::vector<Vec3> directions) {
-  return {{{particle, std::move(directions)}}, {}};
+  return {{{particle, std::move(directions)}}, {}, "support"};
 }
 
 } // namespace
 
 TEST(HeldVelocities, HoldsTheNamedDirectionsOfItsSetOnly) {
-  const After after({{{{0, {Vec3::UnitX(), Vec3::UnitZ()}}, {2, {Vec3::UnitX(), Vec3::UnitZ()}}}, {}}});
+  const After after(
+      {{{{0, {Vec3::UnitX(), Vec3::UnitZ()}}, {2, {Vec3::UnitX(), Vec3::UnitZ()}}}, {}, "support"}});
   EXPECT_EQ(after.p[0], Vec3(0, 2, 0));
   EXPECT_EQ(after.p[1], Vec3(1, 2, 3));
   EXPECT_EQ(after.p[2], Vec3(0, 2, 0));
@@ -79,4 +80,29 @@ TEST(HeldVelocities, TheLaterOfTwoContradictingConditionsWins) {
 TEST(HeldVelocities, FullyHeldParticlesStandStill) {
   const After after({along(1, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()})});
   EXPECT_EQ(after.p[1], Vec3::Zero());
+}
+
+TEST(HeldVelocities, ReportTheForceOfEachSupportOnceWithTheLaterOneFirst) {
+  VelocityCondition<3> base = along(0, {Vec3::UnitX(), Vec3::UnitY()});
+  base.support = "base";
+  base.held.push_back({2, {Vec3::UnitZ()}});
+  VelocityCondition<3> side = along(0, {Vec3::UnitY()});
+  side.support = "side";
+  side.velocity = GivenVector{[](const Vec3&, double) { return Vec3(0, 4, 0); }, true};
+  HeldVelocities<3> held(std::vector{base, side}, X);
+  EXPECT_EQ(held.supports(), (std::vector<std::string>{"base", "side"}));
+  const std::vector<double> V = {10, 1, 100};
+  std::vector<Vec3> p(3, Vec3(1, 2, 3)), impulse(3, Vec3::Zero());
+  held.apply(p, density, 0, 0.5, impulse);
+  p = std::vector<Vec3>(3, Vec3(1, 2, 3));
+  held.apply(p, density, 0, 0.5, impulse);
+  const double elapsed = 0.25;
+  const auto reactions = held.report(V, elapsed);
+  ASSERT_EQ(reactions.size(), 2u);
+  EXPECT_EQ(reactions[0].support, "base");
+  EXPECT_EQ(reactions[0].force, Vec3(-1 * 10, 0, -3 * 100) / elapsed);
+  EXPECT_EQ(reactions[1].support, "side");
+  EXPECT_EQ(reactions[1].force, Vec3(0, (4 * density - 2) * 10, 0) / elapsed);
+  for (const auto& reaction : held.report(V, elapsed))
+    EXPECT_EQ(reaction.force, Vec3::Zero());
 }

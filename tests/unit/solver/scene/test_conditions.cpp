@@ -18,7 +18,7 @@ using Kind = BoundaryCondition::Kind;
 std::vector<Vec3> held(const ParticleCloud& cloud, std::vector<BoundaryCondition> boundary, double time = 0) {
   SceneSpec scene;
   scene.boundary = std::move(boundary);
-  const Conditions<3> conditions = make_conditions<3>(scene, cloud, 1, 1);
+  Conditions<3> conditions = make_conditions<3>(scene, cloud, 1, 1);
   std::vector<Vec3> p(cloud.X.size(), Vec3(1, 2, 3)), impulse(p.size(), Vec3::Zero());
   conditions.held.apply(p, 1, time, 1, impulse);
   return p;

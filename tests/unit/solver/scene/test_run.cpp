@@ -162,6 +162,49 @@ TEST(Run, ElasticScenesRunInThePlaneAndWithoutDissipation) {
   }
 }
 
+TEST(Run, ReactionsOfTheSupportsAreAllThatChangesTheMomentumOfAHeldBody) {
+  const auto cloud = test::box_lattice(5, 5, 5, Vec3(1, 1, 1));
+  SceneSpec scene;
+  scene.material = {"hencky", 1100, 17e6, 0.3, std::nullopt};
+  scene.end_time = 0.02;
+  scene.history_rows = 7;
+  const Formulas pulled{Expression("3*t/0.02"), Expression("0"), Expression("5")};
+  scene.boundary = {
+      {BoundaryCondition::Kind::fixed, "base"},
+      {BoundaryCondition::Kind::velocity, "top", {true, false, true}, {pulled.begin(), pulled.end()}},
+      {BoundaryCondition::Kind::sliding, "y_min"}};
+  scene.initial.push_back({"all", Formulas{Expression("Z"), Expression("2*Z"), Expression("5*Z")}});
+  for (const char* scheme : {"consistent", "thesis"}) {
+    scene.scheme = scheme;
+    Recorded recorded;
+    run(scene, cloud, recorded.outputs(), Progress::silent());
+    const auto column = [&](const std::string& name) {
+      const auto found = std::find(recorded.columns.begin(), recorded.columns.end(), name);
+      EXPECT_NE(found, recorded.columns.end()) << name;
+      return found - recorded.columns.begin();
+    };
+    ASSERT_EQ(recorded.rows.size(), 8u);
+    for (const std::string c : {"x", "y", "z"}) {
+      const auto p = column("linear_momentum_" + c + "_kgm_s");
+      double largest = 0;
+      for (std::size_t i = 1; i < recorded.rows.size(); ++i) {
+        const auto &before = recorded.rows[i - 1], &now = recorded.rows[i];
+        double force = 0;
+        for (const std::string set : {"base", "top", "y_min"}) {
+          const double of_set = now[column(set + "_reaction_" + c + "_N")];
+          largest = std::max(largest, std::abs(of_set));
+          force += of_set;
+        }
+        EXPECT_NEAR(force, (now[p] - before[p]) / (now[0] - before[0]), 1e-10 * largest) << scheme << c << i;
+      }
+      EXPECT_GT(largest, 1e4) << scheme << c;
+    }
+    for (const std::string name : {"y_min_reaction_x_N", "y_min_reaction_z_N"})
+      for (const auto& row : recorded.rows)
+        EXPECT_EQ(row[column(name)], 0) << scheme;
+  }
+}
+
 TEST(Run, EveryDissipationStandsWithEitherSchemeDownToSixNeighbours) {
   // Support 1.2: six neighbours inside, three at a corner, where there is no Laplacian.
   const auto cloud = test::box_lattice(5, 5, 5, Vec3(1, 1, 1));
