@@ -24,6 +24,66 @@ std::vector<std::string> names_of(const std::vector<io::StoredField>& fields) {
   return names;
 }
 
+std::optional<solver::Sampling> sampled(const ParticleCloud& cloud, const Vec3& X) {
+  try {
+    return cloud.dimension == 3 ? solver::build_sampling<3>(X, cloud.X, cloud.V, cloud.hidden)
+                                : solver::build_sampling<2>(X, cloud.X, cloud.V, cloud.hidden);
+  } catch (const InputError&) { // outside
+    return std::nullopt;
+  }
+}
+
+/// F of the affine map that takes these particles nearest to where they are, in the least squares.
+Mat3 affine_map(const std::vector<std::int32_t>& particles, const std::vector<Vec3>& X,
+                const std::vector<Vec3>& x, int dimension) {
+  Vec3 mean_X = Vec3::Zero(), mean_x = Vec3::Zero();
+  for (const std::int32_t b : particles) {
+    mean_X += X[b] / static_cast<double>(particles.size());
+    mean_x += x[b] / static_cast<double>(particles.size());
+  }
+  Mat3 moved = Mat3::Zero(), spread = Mat3::Zero();
+  for (const std::int32_t b : particles) {
+    moved += (x[b] - mean_x) * (X[b] - mean_X).transpose();
+    spread += (X[b] - mean_X) * (X[b] - mean_X).transpose();
+  }
+  if (dimension == 2)
+    moved(2, 2) = spread(2, 2) = 1;
+  return moved * spread.inverse();
+}
+
+/// The sampling at the reference position that the interpolated motion takes to x, found by Newton's method
+/// from the particle that is nearest now. In a body that is flattened or drawn out particles lie far closer
+/// in one direction than in another; in the reference they lie as they were made.
+std::optional<solver::Sampling> sampled_now(const Snapshot& snapshot, const Vec3& x) {
+  const ParticleCloud& cloud = snapshot.cloud;
+  const std::vector<Vec3>& now = snapshot.frame.x;
+  const auto nearest = std::min_element(now.begin(), now.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - x).squaredNorm() < (b - x).squaredNorm();
+  });
+  Vec3 X = cloud.X[static_cast<std::size_t>(nearest - now.begin())];
+  std::optional<solver::Sampling> here = sampled(cloud, X);
+  const auto missing = [&](const solver::Sampling& at) -> Vec3 {
+    return x - at([&](std::int32_t b) -> Vec3 { return now[b]; });
+  };
+  constexpr int steps = 50, halvings = 8;
+  constexpr double enough = 1e-9; // of the kernel radius
+  for (int step = 0; here && step < steps; ++step) {
+    const Vec3 rest = missing(*here);
+    if (rest.norm() <= enough * here->support)
+      return here;
+    Vec3 way = affine_map(here->particle, cloud.X, now, cloud.dimension).inverse() * rest;
+    std::optional<solver::Sampling> there;
+    for (int halving = 0; halving < halvings; ++halving, way /= 2)
+      if (there = sampled(cloud, X + way); there && missing(*there).norm() < rest.norm())
+        break;
+    if (!there || !(missing(*there).norm() < rest.norm()))
+      return std::nullopt; // the way leads out of the body
+    X += way;
+    here = std::move(there);
+  }
+  return std::nullopt;
+}
+
 io::StoredField component(const io::StoredField& whole, const std::string& name, std::size_t c) {
   io::StoredField field{name, 1, {}};
   for (std::size_t i = c; i < whole.values.size(); i += static_cast<std::size_t>(whole.components))
@@ -86,16 +146,11 @@ io::StoredField field_of(const Snapshot& snapshot, const std::string& name) {
 
 std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot, std::span<const Vec3> points,
                                                        Configuration configuration) {
-  const ParticleCloud& cloud = snapshot.cloud;
-  const std::vector<Vec3>& x = configuration == Configuration::reference ? cloud.X : snapshot.frame.x;
   std::vector<std::optional<solver::Sampling>> out(points.size());
   for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
     const auto p = static_cast<std::size_t>(i);
-    try {
-      out[p] = cloud.dimension == 3 ? solver::build_sampling<3>(points[p], x, cloud.V, cloud.hidden)
-                                    : solver::build_sampling<2>(points[p], x, cloud.V, cloud.hidden);
-    } catch (const InputError&) { // outside
-    }
+    out[p] = configuration == Configuration::reference ? sampled(snapshot.cloud, points[p])
+                                                       : sampled_now(snapshot, points[p]);
   });
   return out;
 }

@@ -14,11 +14,13 @@ bool sets_size(const AxisValue& value) {
   });
 }
 
-/// Slope of the line through (log x, log y) that is best in the least squares.
+constexpr std::size_t least = 3;
+
+/// Slope of the line through the last of (log x, log y) that is best in the least squares.
 double order_of(const std::vector<double>& x, const std::vector<double>& y) {
-  const double n = static_cast<double>(x.size());
+  constexpr double n = least;
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  for (std::size_t i = x.size() - least; i < x.size(); ++i) {
     const double u = std::log(x[i]), v = std::log(y[i]);
     sx += u;
     sy += v;
@@ -62,7 +64,7 @@ std::vector<Convergence> convergence(const Study& study, const Results& results)
     one->spacing.push_back(row.spacing);
     one->error.push_back(row.error);
   }
-  std::erase_if(all, [](const Convergence& one) { return one.spacing.size() < 3; });
+  std::erase_if(all, [](const Convergence& one) { return one.spacing.size() < least; });
   for (Convergence& one : all) {
     sort_by_spacing(one);
     one.order = order_of(one.spacing, one.error);

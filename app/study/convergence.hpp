@@ -13,7 +13,7 @@ namespace tessera::app {
 struct Convergence {
   std::map<std::string, std::string> labels; ///< by axis, all but that of the sizes
   std::vector<double> spacing, error;        ///< m; relative
-  double order = Row::none;                  ///< slope of the best line through their logarithms
+  double order = Row::none; ///< slope of the best line through the logarithms of the three finest
 };
 
 /// Of three sizes or more on an axis that sets the number or the distance of particles; empty where the study

@@ -116,8 +116,8 @@ post::Document results_report(const Study& study, const Results& results,
   if (const std::vector<Convergence> all = convergence(study, results); !all.empty()) {
     heading("Convergence");
     picture("convergence.png");
-    paragraph("The order is the slope of the line through the logarithms of error and spacing, best in the "
-              "least squares over all sizes.");
+    paragraph("The order is the slope of the line through the logarithms of error and spacing of the three "
+              "finest sizes, best in the least squares.");
     report.blocks.push_back(table_of_orders(study, all));
   }
   std::vector<std::size_t> order;

@@ -131,28 +131,30 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
 }
 
-/// Errors of h^2 on lattices and h on others, h = 1/2, 1/4, 1/8, in a disorder.
+/// Errors of h^2 on lattices and h on others, h = 1/2, 1/4, 1/8, in a disorder, and one too coarse to count.
 TEST(Convergence, OrderOfEachCurveOfAtLeastThreeSizes) {
   Study study;
-  study.axes = {
-      {"cloud", {{"lattice", {}}, {"raw", {}}, {"few", {}}}},
-      {"size",
-       {{"2", {"particles.count=8"}}, {"8", {"particles.count=512"}}, {"4", {"particles.count=64"}}}}};
+  study.axes = {{"cloud", {{"lattice", {}}, {"raw", {}}, {"few", {}}}},
+                {"size",
+                 {{"2", {"particles.count=8"}},
+                  {"8", {"particles.count=512"}},
+                  {"4", {"particles.count=64"}},
+                  {"1", {"particles.count=1"}}}}};
   study.colour = study.marker = "cloud";
   Results results;
   for (const auto& [cloud, order] : {std::pair{"lattice", 2}, {"raw", 1}})
-    for (const double n : {2., 8., 4.}) {
+    for (const double n : {2., 8., 1., 4.}) {
       Row& row = results.rows.emplace_back();
       row.labels = {cloud, std::to_string(static_cast<int>(n))};
       row.spacing = 1 / n;
-      row.error = 3 * std::pow(row.spacing, order);
+      row.error = n == 1 ? 100 : 3 * std::pow(row.spacing, order);
     }
   results.rows.push_back(results.rows.front());
   results.rows.back().labels = {"few", "2"};
   const std::vector<Convergence> all = convergence(study, results);
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].labels, (std::map<std::string, std::string>{{"cloud", "lattice"}}));
-  EXPECT_EQ(all[0].spacing, (std::vector{0.5, 0.25, 0.125}));
+  EXPECT_EQ(all[0].spacing, (std::vector{1., 0.5, 0.25, 0.125}));
   EXPECT_NEAR(all[0].order, 2, 1e-12);
   EXPECT_NEAR(all[1].order, 1, 1e-12);
   study.colour = study.marker = "size";

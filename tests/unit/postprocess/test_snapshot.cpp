@@ -56,6 +56,23 @@ TEST(Section, LinearFieldsAreExactInBothConfigurations) {
   }
 }
 
+/// A bar pressed to a tenth of its height, as feet of impacted bars are: its curve has no gap, and the
+/// field's own value in the middle of the body.
+TEST(Section, AFlattenedBodyIsSeenFromSideToSide) {
+  Snapshot flat = sheared();
+  for (std::size_t a = 0; a < flat.cloud.X.size(); ++a) {
+    const Vec3& X = flat.cloud.X[a];
+    flat.frame.x[a] = Vec3(2 * X[0] + 40 * X[0] * X[0], 0.1 * X[1], 0);
+    flat.frame.fields[1].values[a] = 1e3 * X[0];
+  }
+  const SectionCurves curves =
+      cut(section_from("0.0005,0.0002:0.018,0.0002"), {flat}, {"Pressure"}, Configuration::current, 101);
+  for (std::size_t i = 0; i < curves.points.size(); ++i) {
+    const double x = curves.points[i][0], X = (std::sqrt(4 + 160 * x) - 2) / 80;
+    EXPECT_NEAR(curves.curves[0].values[i], 1e3 * X, 0.02) << x;
+  }
+}
+
 TEST(Section, ThereIsNothingOutsideTheBody) {
   const std::vector<Snapshot> runs{sheared()};
   const SectionCurves curves =
