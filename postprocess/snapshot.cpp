@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace tessera::post {
 namespace {
@@ -24,11 +25,13 @@ std::vector<std::string> names_of(const std::vector<io::StoredField>& fields) {
   return names;
 }
 
-std::optional<solver::Sampling> sampled(const ParticleCloud& cloud, const Vec3& X) {
+/// At `point` among particles at `x`; nothing outside them.
+std::optional<solver::Sampling> sampled(const ParticleCloud& cloud, const std::vector<Vec3>& x,
+                                        const Vec3& point) {
   try {
-    return cloud.dimension == 3 ? solver::build_sampling<3>(X, cloud.X, cloud.V, cloud.hidden)
-                                : solver::build_sampling<2>(X, cloud.X, cloud.V, cloud.hidden);
-  } catch (const InputError&) { // outside
+    return cloud.dimension == 3 ? solver::build_sampling<3>(point, x, cloud.V, cloud.hidden)
+                                : solver::build_sampling<2>(point, x, cloud.V, cloud.hidden);
+  } catch (const InputError&) {
     return std::nullopt;
   }
 }
@@ -51,37 +54,33 @@ Mat3 affine_map(const std::vector<std::int32_t>& particles, const std::vector<Ve
   return moved * spread.inverse();
 }
 
-/// The sampling at the reference position that the interpolated motion takes to x, found by Newton's method
-/// from the particle that is nearest now. In a body that is flattened or drawn out particles lie far closer
-/// in one direction than in another; in the reference they lie as they were made.
-std::optional<solver::Sampling> sampled_now(const Snapshot& snapshot, const Vec3& x) {
+/// At a place of the deformed body. In one that is flattened or drawn out particles lie far closer in one
+/// direction than in another, so that distances are taken after the deformation about the particle nearest to
+/// the point is undone, and only between particles that were near to that one: what is folded onto them is
+/// not theirs.
+std::optional<solver::Sampling> sampled_now(const Snapshot& snapshot, const Vec3& point) {
   const ParticleCloud& cloud = snapshot.cloud;
   const std::vector<Vec3>& now = snapshot.frame.x;
-  const auto nearest = std::min_element(now.begin(), now.end(), [&](const Vec3& a, const Vec3& b) {
-    return (a - x).squaredNorm() < (b - x).squaredNorm();
-  });
-  Vec3 X = cloud.X[static_cast<std::size_t>(nearest - now.begin())];
-  std::optional<solver::Sampling> here = sampled(cloud, X);
-  const auto missing = [&](const solver::Sampling& at) -> Vec3 {
-    return x - at([&](std::int32_t b) -> Vec3 { return now[b]; });
-  };
-  constexpr int steps = 50, halvings = 8;
-  constexpr double enough = 1e-9; // of the kernel radius
-  for (int step = 0; here && step < steps; ++step) {
-    const Vec3 rest = missing(*here);
-    if (rest.norm() <= enough * here->support)
-      return here;
-    Vec3 way = affine_map(here->particle, cloud.X, now, cloud.dimension).inverse() * rest;
-    std::optional<solver::Sampling> there;
-    for (int halving = 0; halving < halvings; ++halving, way /= 2)
-      if (there = sampled(cloud, X + way); there && missing(*there).norm() < rest.norm())
-        break;
-    if (!there || !(missing(*there).norm() < rest.norm()))
-      return std::nullopt; // the way leads out of the body
-    X += way;
-    here = std::move(there);
-  }
-  return std::nullopt;
+  const auto a = static_cast<std::size_t>(std::min_element(now.begin(), now.end(),
+                                                           [&](const Vec3& one, const Vec3& other) {
+                                                             return (one - point).squaredNorm() <
+                                                                    (other - point).squaredNorm();
+                                                           }) -
+                                          now.begin());
+  const std::optional<solver::Sampling> about = sampled(cloud, cloud.X, cloud.X[a]);
+  if (!about)
+    return std::nullopt;
+  const Mat3 F = affine_map(about->particle, cloud.X, now, cloud.dimension);
+  if (!(F.determinant() > 0))
+    return std::nullopt; // the particles lie in disorder
+  const Mat3 undone = F.inverse();
+  const double vicinity = 4 * about->support;
+  const Vec3 far_away = Vec3::Constant(std::numeric_limits<double>::infinity());
+  std::vector<Vec3> y(now.size(), far_away);
+  for (std::size_t b = 0; b < y.size(); ++b)
+    if ((cloud.X[b] - cloud.X[a]).norm() < vicinity)
+      y[b] = undone * (now[b] - point);
+  return sampled(cloud, y, Vec3::Zero());
 }
 
 io::StoredField component(const io::StoredField& whole, const std::string& name, std::size_t c) {
@@ -149,7 +148,7 @@ std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot,
   std::vector<std::optional<solver::Sampling>> out(points.size());
   for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
     const auto p = static_cast<std::size_t>(i);
-    out[p] = configuration == Configuration::reference ? sampled(snapshot.cloud, points[p])
+    out[p] = configuration == Configuration::reference ? sampled(snapshot.cloud, snapshot.cloud.X, points[p])
                                                        : sampled_now(snapshot, points[p]);
   });
   return out;

@@ -39,8 +39,8 @@ Snapshot read_snapshot(const std::filesystem::path& folder, const std::string& w
 io::StoredField field_of(const Snapshot& snapshot, const std::string& name);
 
 /// What build_sampling gives at each of the points (m); empty where one lies outside the body. In the current
-/// configuration it is that at the reference position which the interpolated motion takes to the point:
-/// linear fields of the current position, too, are exact.
+/// configuration distances are those before the local deformation, and linear fields of the current position
+/// are exact.
 std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot, std::span<const Vec3> points,
                                                        Configuration configuration);
 

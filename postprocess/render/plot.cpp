@@ -44,6 +44,10 @@ bool shown(double value, bool logarithmic) {
   return std::isfinite(value) && (!logarithmic || value > 0);
 }
 
+bool can_be_shown(const Curve& curve, const Chart& chart, std::size_t i) {
+  return shown(curve.x[i], chart.log_x) && shown(curve.y[i], chart.log_y);
+}
+
 bool has_bars(const Chart& chart) {
   return std::any_of(chart.curves.begin(), chart.curves.end(), [](const Curve& c) { return c.bars; });
 }
@@ -54,7 +58,7 @@ void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Curve& curve : chart.curves)
     for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
-      if (!shown(curve.x[i], chart.log_x) || !shown(curve.y[i], chart.log_y))
+      if (!can_be_shown(curve, chart, i))
         continue;
       const double value = horizontal ? curve.x[i] : curve.y[i];
       // Bars stand on zero and reach half a class to both sides.
@@ -93,23 +97,25 @@ void fit_axis(vtkAxis& axis, const Chart& chart, bool horizontal) {
   axis.SetCustomTickPositions(places, labels);
 }
 
-/// The points that can be shown: finite, and positive on logarithmic axes.
-vtkSmartPointer<vtkTable> table_of(const Curve& curve, const Chart& chart) {
-  const vtkNew<vtkDoubleArray> x, y;
-  x->SetName("x");
-  y->SetName(curve.label.c_str());
-  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
-    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i]))
+/// The runs of points that can be shown: a line has a gap where it has no value.
+std::vector<vtkSmartPointer<vtkTable>> pieces_of(const Curve& curve, const Chart& chart) {
+  std::vector<vtkSmartPointer<vtkTable>> pieces;
+  const std::size_t points = std::min(curve.x.size(), curve.y.size());
+  for (std::size_t i = 0; i < points; ++i) {
+    const vtkNew<vtkDoubleArray> x, y;
+    x->SetName("x");
+    y->SetName(curve.label.c_str());
+    for (; i < points && can_be_shown(curve, chart, i); ++i) {
+      x->InsertNextValue(curve.x[i]);
+      y->InsertNextValue(curve.y[i]);
+    }
+    if (x->GetNumberOfTuples() == 0)
       continue;
-    if ((chart.log_x && curve.x[i] <= 0) || (chart.log_y && curve.y[i] <= 0))
-      continue;
-    x->InsertNextValue(curve.x[i]);
-    y->InsertNextValue(curve.y[i]);
+    auto& table = pieces.emplace_back(vtkSmartPointer<vtkTable>::New());
+    table->AddColumn(x);
+    table->AddColumn(y);
   }
-  auto table = vtkSmartPointer<vtkTable>::New();
-  table->AddColumn(x);
-  table->AddColumn(y);
-  return table;
+  return pieces;
 }
 
 Colour colour_of(const Curve& curve, int index) {
@@ -122,11 +128,7 @@ int marker_of(const Curve& curve) {
   return styles[static_cast<std::size_t>(curve.marker) % styles.size()];
 }
 
-void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int index) {
-  const auto table = table_of(curve, spec);
-  if (table->GetNumberOfRows() == 0)
-    return;
-  const Colour colour = colour_of(curve, index);
+void add_piece(vtkChartXY& chart, const Curve& curve, vtkTable* table, Colour colour) {
   vtkPlot* plot = chart.AddPlot(curve.bars ? vtkChart::BAR : curve.dots ? vtkChart::POINTS : vtkChart::LINE);
   plot->SetInputData(table, 0, 1);
   plot->SetColor(colour[0], colour[1], colour[2], 255);
@@ -141,6 +143,11 @@ void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int ind
   plot->GetPen()->SetLineType(curve.dashed ? vtkPen::DASH_LINE : vtkPen::SOLID_LINE);
   if (auto* points = vtkPlotPoints::SafeDownCast(plot); points && curve.dots)
     points->SetMarkerStyle(marker_of(curve));
+}
+
+void add_curve(vtkChartXY& chart, const Curve& curve, const Chart& spec, int index) {
+  for (const auto& piece : pieces_of(curve, spec))
+    add_piece(chart, curve, piece, colour_of(curve, index));
 }
 
 /// As the chart draws it.
