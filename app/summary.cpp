@@ -92,7 +92,7 @@ std::string summary_json(const Case& the_case, const ParticleCloud& cloud, const
                  {"von_mises", s.extremes.von_mises},
                  {"pressure", s.extremes.pressure},
                  {"displacement", s.extremes.displacement}};
-  json["min"] = {{"jacobian", s.extremes.jacobian}};
+  json["min"] = {{"pressure", s.extremes.smallest_pressure}, {"jacobian", s.extremes.jacobian}};
   json["extent_min"] = list(s.extent_min);
   json["extent_max"] = list(s.extent_max);
   json["probes"] = Json::object();

@@ -50,6 +50,7 @@ constexpr Known summary_keys[] = {
     {"max.equivalent_plastic_strain", "Largest equivalent plastic strain", ""},
     {"max.von_mises", "Largest von Mises stress", "Pa"},
     {"max.pressure", "Largest pressure (tension positive)", "Pa"},
+    {"min.pressure", "Smallest pressure (compression negative)", "Pa"},
     {"max.displacement", "Largest displacement", "m"},
     {"min.jacobian", "Smallest J", ""},
     {"energy.kinetic", "Kinetic energy", "J"},

@@ -76,7 +76,7 @@ std::string results_csv(const Study& study, const Results& results) {
   std::vector<std::string> cells;
   for (const Axis& axis : study.axes)
     cells.push_back(axis.name);
-  for (const char* column : {"particles", "spacing", "steps", "error", "cpu_seconds", "setup_seconds",
+  for (const char* column : {"particles", "spacing_m", "steps", "error", "cpu_seconds", "setup_seconds",
                              "peak_bytes", "front", "run", "failure"})
     cells.emplace_back(column);
   std::string text = post::csv_line(cells);

@@ -81,8 +81,8 @@ std::vector<Axis> read_axes(const std::vector<Table>& tables, const Table& root)
   for (const Table& table : tables) {
     Axis axis = read_axis(table);
     // Names of the columns beside the axes' own.
-    for (const char* taken : {"particles", "steps", "error", "cpu_seconds", "setup_seconds", "peak_bytes",
-                              "front", "run", "failure"})
+    for (const char* taken : {"particles", "spacing_m", "steps", "error", "cpu_seconds", "setup_seconds",
+                              "peak_bytes", "front", "run", "failure"})
       if (axis.name == taken)
         table.refuse("name", fmt::format("an axis may not be called '{}'", taken),
                      "study.csv has a column of that name");
@@ -213,6 +213,23 @@ ErrorMeasure read_error(Table table, const fs::path& study) {
   return error;
 }
 
+/// A key that every value of an axis sets anew would be silently without effect.
+std::vector<std::string> read_common(Table& table, const std::vector<Axis>& axes) {
+  const std::vector<std::string> assignments = table.assignments();
+  for (const std::string& assignment : assignments) {
+    const std::string key = key_of(assignment);
+    const auto sets = [&](const AxisValue& value) {
+      return std::any_of(value.assignments.begin(), value.assignments.end(),
+                         [&](const std::string& other) { return key_of(other) == key; });
+    };
+    for (const Axis& axis : axes)
+      if (std::all_of(axis.values.begin(), axis.values.end(), sets))
+        table.refuse(key, fmt::format("{} does nothing: every value of axis '{}' sets it", key, axis.name),
+                     "leave it out of one of them");
+  }
+  return assignments;
+}
+
 } // namespace
 
 Study read_study(const fs::path& file) {
@@ -239,7 +256,7 @@ Study read_study(const fs::path& file) {
                 "paths are relative to the study file");
   study.axes = read_axes(axes, root);
   if (common)
-    study.common = common->assignments();
+    study.common = read_common(*common, study.axes);
   for (const Table& table : exclusions)
     study.exclude.push_back(read_exclusion(table, study.axes));
   study.error = read_error(error, study.path);

@@ -99,7 +99,11 @@ class FrameArrays {
     extremes.equivalent_plastic_strain = largest(extremes.equivalent_plastic_strain, plastic_strain_);
     extremes.von_mises = largest(extremes.von_mises, von_mises_);
     extremes.pressure = largest(extremes.pressure, pressure_);
-    extremes.jacobian = std::min(extremes.jacobian, *std::min_element(jacobian_.begin(), jacobian_.end()));
+    const auto smallest = [](double so_far, const std::vector<double>& values) {
+      return std::min(so_far, *std::min_element(values.begin(), values.end()));
+    };
+    extremes.smallest_pressure = smallest(extremes.smallest_pressure, pressure_);
+    extremes.jacobian = smallest(extremes.jacobian, jacobian_);
     for (std::size_t a = 0; a < jacobian_.size(); ++a)
       extremes.displacement =
           std::max(extremes.displacement,

@@ -144,8 +144,9 @@ struct Extremes {
   double equivalent_plastic_strain = 0;
   double von_mises = 0;                                       ///< Pa
   double pressure = -std::numeric_limits<double>::infinity(); ///< Pa, positive in tension
-  double displacement = 0;                                    ///< m
-  double jacobian = std::numeric_limits<double>::infinity();  ///< the smallest
+  double smallest_pressure = std::numeric_limits<double>::infinity();
+  double displacement = 0;                                   ///< m
+  double jacobian = std::numeric_limits<double>::infinity(); ///< the smallest
 };
 
 /// Differences from the exact solution at the end, (5.3): L1 = sum V |e|, L2 = sqrt(sum V |e|^2). Zero of

@@ -163,6 +163,8 @@ TEST_F(StudyFile, BadStudiesAreOneLine) {
                    {"(raw, 100)", "thesus", "thesis"});
   expect_complaint(study_with("solver.scheme = \"thesis\"", "particles.count = 5"),
                    {"'cloud' and 'size' both set particles.count"});
+  expect_complaint(study_with("[common]", "[common]\nparticles.count = 5"),
+                   {"particles.count does nothing", "every value of axis 'size'"});
   expect_complaint(study_with("probe = \"length\"", "probe = \"lenght\""),
                    {"lenght", "did you mean 'length'"});
   expect_complaint(study_with("probe = \"length\"\nvalue = 0.03", "exact = \"velocity\""),

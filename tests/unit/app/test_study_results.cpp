@@ -113,7 +113,7 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_EQ(results.rows[2].failure, "no memory");
   EXPECT_EQ(results.front, std::vector<std::size_t>{0});
   EXPECT_EQ(results_csv(study, results),
-            "size,particles,spacing,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
+            "size,particles,spacing_m,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
             "1,8,0.25,4,0.01,0.5,2,3000000,1,runs/a,\n"
             "\"2, large\",,,,,,,,0,runs/b,blew up\n"
             "3,,,,,,,,0,runs/c,no memory\n");
