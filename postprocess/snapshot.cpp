@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/point_grid.hpp"
 #include "io/cloud_file.hpp"
 #include "postprocess/quantity.hpp"
 
@@ -29,6 +30,39 @@ io::StoredField component(const io::StoredField& whole, const std::string& name,
   for (std::size_t i = c; i < whole.values.size(); i += static_cast<std::size_t>(whole.components))
     field.values.push_back(whole.values[i]);
   return field;
+}
+
+/// Particles within `radius` of a point, ascending.
+std::vector<std::int32_t> within(const PointGrid& grid, const Vec3& point, double radius) {
+  std::vector<std::int32_t> found;
+  grid.near(point, radius, [&](std::int32_t b, double distance) {
+    if (distance <= radius)
+      found.push_back(b);
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Among the particles near the point where they decide, else among all; empty outside the body.
+template <int D>
+std::optional<solver::Sampling> sampling_at(const Vec3& point, std::span<const Vec3> x,
+                                            const ParticleCloud& cloud, const PointGrid& grid) {
+  // A ball of more than 2 D particles holds, fourfold, all that the nearest one's surroundings are made of.
+  double ball = 1.2 * cloud.spacing;
+  while (ball < 10 * cloud.spacing && within(grid, point, ball).size() <= 2 * D)
+    ball *= 1.3;
+  try {
+    const auto near = within(grid, point, 4 * ball);
+    solver::Sampling sampling = solver::build_sampling<D>(point, x, cloud.V, near, cloud.hidden);
+    if (sampling.support <= 4 * ball)
+      return sampling;
+  } catch (const InputError&) { // nobody near, or hidden
+  }
+  try {
+    return solver::build_sampling<D>(point, x, cloud.V, cloud.hidden);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 } // namespace
@@ -86,16 +120,18 @@ io::StoredField field_of(const Snapshot& snapshot, const std::string& name) {
 
 std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot, std::span<const Vec3> points,
                                                        Configuration configuration) {
-  const ParticleCloud& cloud = snapshot.cloud;
-  const std::vector<Vec3>& x = configuration == Configuration::reference ? cloud.X : snapshot.frame.x;
+  return samplings(snapshot.cloud,
+                   configuration == Configuration::reference ? snapshot.cloud.X : snapshot.frame.x, points);
+}
+
+std::vector<std::optional<solver::Sampling>> samplings(const ParticleCloud& cloud, std::span<const Vec3> x,
+                                                       std::span<const Vec3> points) {
+  const PointGrid grid(x, 2 * cloud.spacing);
   std::vector<std::optional<solver::Sampling>> out(points.size());
   for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
     const auto p = static_cast<std::size_t>(i);
-    try {
-      out[p] = cloud.dimension == 3 ? solver::build_sampling<3>(points[p], x, cloud.V, cloud.hidden)
-                                    : solver::build_sampling<2>(points[p], x, cloud.V, cloud.hidden);
-    } catch (const InputError&) { // outside
-    }
+    out[p] = cloud.dimension == 3 ? sampling_at<3>(points[p], x, cloud, grid)
+                                  : sampling_at<2>(points[p], x, cloud, grid);
   });
   return out;
 }

@@ -59,7 +59,7 @@ int main(int argc, char** argv) try {
   ::alarm(time_limit);
   const post::RenderJob job = post::render_job_from_json(content(argv[1]));
   for (const post::Drawing& drawing : job.drawings)
-    attempt(drawing.file, [&] { post::draw_particles(drawing); });
+    attempt(drawing.file, [&] { post::draw_body(drawing); });
   for (const post::Plot& plot : job.plots)
     attempt(plot.file, [&] { post::draw_plot(plot); });
   // Everything is written; graphics drivers are known to leak or crash on the way out.
