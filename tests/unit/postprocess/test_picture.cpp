@@ -62,6 +62,63 @@ TEST(Picture, SeveralRunsStandSideBySide) {
   EXPECT_GT(Seen(two[0]).width, Seen(one[0]).width + 300);
 }
 
+TEST(Picture, MomentsStandSideBySideOrMove) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture one, strip, moving;
+  one.name = "one";
+  strip.name = "strip";
+  strip.frames = 5; // there are two
+  moving.name = "moving";
+  moving.animation = true;
+  std::vector<Picture> pictures{one, strip, moving};
+  for (Picture& picture : pictures)
+    picture.field = "PlasticStrain";
+  Notes notes;
+  const std::vector<Tool> wall{{Vec3::Zero(), Vec3::UnitZ(), {}, Vec3::Zero()}};
+  const auto files = draw(pictures, {folder.path()}, {"bar"}, folder.path(), notes.progress, wall);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_TRUE(Seen(files[0]).colours.contains({222, 222, 222})) << "the wall";
+  EXPECT_GT(Seen(files[1]).width, Seen(files[0]).width);
+  const std::string bytes = test::content(files[2]);
+  EXPECT_NE(bytes.find("acTL"), std::string::npos);
+  EXPECT_NE(bytes.find("fdAT"), std::string::npos);
+  EXPECT_GT(Seen(files[2]).colours.size(), 500u) << "a still for whom it does not move";
+}
+
+TEST(Picture, TimesOutsideTheRunAreNoted) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture late, early, inside;
+  late.field = early.field = inside.field = "PlasticStrain";
+  late.name = "late";
+  late.frame = "1e-3";
+  early.name = "early";
+  early.times = {-1e-6, 80e-6};
+  inside.name = "inside";
+  inside.frame = "5e-05";
+  Notes notes;
+  EXPECT_EQ(draw({late, early, inside}, {folder.path()}, {}, folder.path(), notes.progress).size(), 3u);
+  const std::string text = notes.out.str();
+  EXPECT_NE(text.find("late.png: the run's frames go from 0 s to 80 µs: the last one is drawn in place of 1 ms"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("early.png"), std::string::npos) << text;
+  EXPECT_EQ(text.find("inside.png"), std::string::npos) << text;
+}
+
+TEST(Picture, WithoutTheBodysShapeASkinIsParticles) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture skin;
+  skin.field = "PlasticStrain";
+  skin.skin = true;
+  Notes notes;
+  ASSERT_EQ(draw({skin}, {folder.path()}, {}, folder.path(), notes.progress).size(), 1u);
+  EXPECT_NE(notes.out.str().find("there is no body.vtu"), std::string::npos) << notes.out.str();
+}
+
 TEST(Picture, CloudIsDrawnFromItsFile) {
   const TemporaryFolder folder;
   test::store_run(folder.path(), 7e-3);
