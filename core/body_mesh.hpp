@@ -15,7 +15,8 @@ struct BodyMesh {
   int dimension = 3;
   std::vector<Vec3> points; ///< m
   std::vector<std::array<std::int32_t, 4>> solids;
-  std::vector<std::array<std::int32_t, 3>> faces; ///< counter-clockwise seen from outside, in the plane from +z
+  std::vector<std::array<std::int32_t, 3>>
+      faces; ///< counter-clockwise seen from outside, in the plane from +z
   std::vector<std::array<std::int32_t, 2>> edges; ///< where two surfaces of the CAD model meet
 };
 

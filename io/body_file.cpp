@@ -78,9 +78,9 @@ BodyMesh read_body(const std::filesystem::path& file) {
     require((type == VTK_TETRA && count == 4) || (type == VTK_TRIANGLE && count == 3) ||
                 (type == VTK_LINE && count == 2),
             "the body holds other cells than tetrahedra, triangles and lines", file.string(), remedy);
-    require(std::all_of(ids, ids + count,
-                        [&](vtkIdType p) { return p >= 0 && p < grid->GetNumberOfPoints(); }),
-            "a cell of the body names no point", file.string(), remedy);
+    require(
+        std::all_of(ids, ids + count, [&](vtkIdType p) { return p >= 0 && p < grid->GetNumberOfPoints(); }),
+        "a cell of the body names no point", file.string(), remedy);
     if (type == VTK_TETRA)
       mesh.solids.push_back(simplex_of<4>(ids));
     else if (type == VTK_TRIANGLE)

@@ -22,8 +22,7 @@ class Cutter {
       add_section(solid);
     for (const auto& [a, b] : mesh_.edges)
       if (stays(a) || stays(b))
-        out_.edges.push_back(
-            {stays(a) ? corner(a) : crossing(a, b), stays(b) ? corner(b) : crossing(a, b)});
+        out_.edges.push_back({stays(a) ? corner(a) : crossing(a, b), stays(b) ? corner(b) : crossing(a, b)});
     return std::move(out_);
   }
 

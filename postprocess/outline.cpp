@@ -39,9 +39,7 @@ std::vector<std::array<Vec3, 2>> outline_of(const CutBody& body, const Vec3& int
     }
   }
   std::vector<std::array<Vec3, 2>> lines;
-  const auto add = [&](std::int32_t a, std::int32_t b) {
-    lines.push_back({body.points[a], body.points[b]});
-  };
+  const auto add = [&](std::int32_t a, std::int32_t b) { lines.push_back({body.points[a], body.points[b]}); };
   for (const auto& [a, b] : body.edges) {
     const auto beside = sides.find(edge_of(a, b));
     if (beside == sides.end() || beside->second.towards > 0)

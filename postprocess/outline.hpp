@@ -8,9 +8,9 @@
 
 namespace tessera::post {
 
-/// Lines of the body as seen along the unit vector `into`, without perspective: its edges and silhouette, none
-/// of which lie between two faces that are turned away, and the rim of its section. Of a plane body all its
-/// edges.
+/// Lines of the body as seen along the unit vector `into`, without perspective: its edges and silhouette,
+/// none of which lie between two faces that are turned away, and the rim of its section. Of a plane body all
+/// its edges.
 std::vector<std::array<Vec3, 2>> outline_of(const CutBody& body, const Vec3& into);
 
 } // namespace tessera::post

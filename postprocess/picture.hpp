@@ -17,11 +17,11 @@ namespace tessera::post {
 /// One picture: the body on white at one moment, at several side by side, or moving; with a colour bar with
 /// unit, title and times.
 struct Picture {
-  std::string name = "picture"; ///< file name without .png
-  std::string field;            ///< point array: PlasticStrain, VonMises, Pressure, volume, ...
-  std::string view = "front";   ///< front (from -y), back, left, right, top (from +z), bottom, iso
-  std::string clip;             ///< "", "x", "y" or "z": only what is beyond a plane across it is drawn
-  std::optional<double> clip_at;          ///< where, m; absent: in the body's middle
+  std::string name = "picture";  ///< file name without .png
+  std::string field;             ///< point array: PlasticStrain, VonMises, Pressure, volume, ...
+  std::string view = "front";    ///< front (from -y), back, left, right, top (from +z), bottom, iso
+  std::string clip;              ///< "", "x", "y" or "z": only what is beyond a plane across it is drawn
+  std::optional<double> clip_at; ///< where, m; absent: in the body's middle
   std::optional<double> minimum, maximum; ///< colour range; absent: over the frames shown
   std::string frame = "last";             ///< last, first, or a time in seconds
   std::vector<double> times;              ///< in place of it: of frames side by side, s
@@ -33,9 +33,9 @@ struct Picture {
 };
 
 /// Renders each picture of each series folder in one child process under xvfb-run. Several `folders`: drawn
-/// side by side on one colour scale with `labels` under them. `tools` are about the bodies. Returns the files written (in `output`). Where
-/// xvfb-run or the renderer is missing or fails, notes why on `progress` and returns no files: a picture
-/// never fails a run.
+/// side by side on one colour scale with `labels` under them. `tools` are about the bodies. Returns the files
+/// written (in `output`). Where xvfb-run or the renderer is missing or fails, notes why on `progress` and
+/// returns no files: a picture never fails a run.
 std::vector<std::filesystem::path> draw(const std::vector<Picture>& pictures,
                                         const std::vector<std::filesystem::path>& folders,
                                         const std::vector<std::string>& labels,

@@ -5,8 +5,9 @@
 
 namespace tessera::post {
 
-/// Halves every edge longer than `longest` (m), again and again, the longest of each simplex first: neighbours
-/// are split alike, whatever order they come in, so that nothing gapes. The first points are those of `mesh`.
+/// Halves every edge longer than `longest` (m), again and again, the longest of each simplex first:
+/// neighbours are split alike, whatever order they come in, so that nothing gapes. The first points are those
+/// of `mesh`.
 BodyMesh refined(const BodyMesh& mesh, double longest);
 
 } // namespace tessera::post

@@ -34,7 +34,10 @@ json of(const Tool& tool) {
   json line = json::array();
   for (const Vec3& x : tool.line)
     line.push_back(of(x));
-  return {{"point", of(tool.point)}, {"normal", of(tool.normal)}, {"line", line}, {"velocity", of(tool.velocity)}};
+  return {{"point", of(tool.point)},
+          {"normal", of(tool.normal)},
+          {"line", line},
+          {"velocity", of(tool.velocity)}};
 }
 
 Tool tool_of(const json& value) {
@@ -45,9 +48,9 @@ Tool tool_of(const json& value) {
 }
 
 json of(const Panel& panel) {
-  return {{"file", panel.file}, {"label", panel.label}, {"time", panel.time},
-          {"spacing", panel.spacing}, {"clip", panel.clip}, {"cells", panel.cells},
-          {"body", panel.body}, {"cloud", panel.cloud}, {"clip_at", panel.clip_at}};
+  return {{"file", panel.file},       {"label", panel.label}, {"time", panel.time},
+          {"spacing", panel.spacing}, {"clip", panel.clip},   {"cells", panel.cells},
+          {"body", panel.body},       {"cloud", panel.cloud}, {"clip_at", panel.clip_at}};
 }
 
 json of(const Drawing& drawing) {
@@ -56,10 +59,19 @@ json of(const Drawing& drawing) {
     tools.push_back(of(tool));
   for (const Panel& panel : drawing.panels)
     panels.push_back(of(panel));
-  return {{"file", drawing.file},       {"title", drawing.title},     {"field", drawing.field},
-          {"view", drawing.view},       {"minimum", drawing.minimum}, {"maximum", drawing.maximum},
-          {"outline", drawing.outline}, {"skin", drawing.skin}, {"one_place", drawing.one_place},
-          {"one_by_one", drawing.one_by_one}, {"cloud", drawing.cloud}, {"tools", tools}, {"panels", panels}};
+  return {{"file", drawing.file},
+          {"title", drawing.title},
+          {"field", drawing.field},
+          {"view", drawing.view},
+          {"minimum", drawing.minimum},
+          {"maximum", drawing.maximum},
+          {"outline", drawing.outline},
+          {"skin", drawing.skin},
+          {"one_place", drawing.one_place},
+          {"one_by_one", drawing.one_by_one},
+          {"cloud", drawing.cloud},
+          {"tools", tools},
+          {"panels", panels}};
 }
 
 json of(const Chart& chart) {
@@ -78,9 +90,19 @@ json of(const Chart& chart) {
 }
 
 Drawing drawing_of(const json& value) {
-  Drawing drawing{value.at("file"), value.at("title"), value.at("field"), value.at("view"),
-                  number(value.at("minimum")), number(value.at("maximum")), value.at("outline"),
-                  value.at("skin"), value.at("one_place"), value.at("one_by_one"), value.at("cloud"), {}, {}};
+  Drawing drawing{value.at("file"),
+                  value.at("title"),
+                  value.at("field"),
+                  value.at("view"),
+                  number(value.at("minimum")),
+                  number(value.at("maximum")),
+                  value.at("outline"),
+                  value.at("skin"),
+                  value.at("one_place"),
+                  value.at("one_by_one"),
+                  value.at("cloud"),
+                  {},
+                  {}};
   for (const json& tool : value.at("tools"))
     drawing.tools.push_back(tool_of(tool));
   for (const json& panel : value.at("panels"))

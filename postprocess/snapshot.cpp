@@ -47,14 +47,15 @@ std::vector<std::int32_t> within(const PointGrid& grid, const Vec3& point, doubl
 template <int D>
 std::optional<solver::Sampling> sampling_at(const Vec3& point, std::span<const Vec3> x,
                                             const ParticleCloud& cloud, const PointGrid& grid) {
-  // A ball of more than 2 D particles holds, fourfold, all that the nearest one's surroundings are made of.
+  // Where a ball holds more than 2 D particles, thrice it holds all that the nearest one's surroundings are
+  // made of.
   double ball = 1.2 * cloud.spacing;
   while (ball < 10 * cloud.spacing && within(grid, point, ball).size() <= 2 * D)
     ball *= 1.3;
   try {
-    const auto near = within(grid, point, 4 * ball);
+    const auto near = within(grid, point, 3 * ball);
     solver::Sampling sampling = solver::build_sampling<D>(point, x, cloud.V, near, cloud.hidden);
-    if (sampling.support <= 4 * ball)
+    if (sampling.support <= 3 * ball)
       return sampling;
   } catch (const InputError&) { // nobody near, or hidden
   }

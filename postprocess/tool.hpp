@@ -15,7 +15,8 @@ struct Tool {
   Vec3 velocity = Vec3::Zero();                      ///< m/s
 };
 
-/// The walls that are planes or lines, where they are at time zero, lines prolonged by `reach` (m) at both ends.
+/// The walls that are planes or lines, where they are at time zero, lines prolonged by `reach` (m) at both
+/// ends.
 std::vector<Tool> tools_of(const std::vector<solver::WallSpec>& walls, double reach);
 
 } // namespace tessera::post

@@ -109,7 +109,8 @@ vtkSmartPointer<vtkActor> coloured(vtkPolyDataMapper& mapper, const ColourScale&
     return std::array{colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, 1.0};
   };
   for (int s = 0; s < shades; ++s)
-    table->SetTableValue(s, entry(scale.minimum + (s + 0.5) / shades * (scale.maximum - scale.minimum)).data());
+    table->SetTableValue(s,
+                         entry(scale.minimum + (s + 0.5) / shades * (scale.maximum - scale.minimum)).data());
   table->SetNanColor(entry(std::numeric_limits<double>::quiet_NaN()).data());
   mapper.SetLookupTable(table);
   mapper.UseLookupTableScalarRangeOn();
@@ -178,10 +179,10 @@ vtkSmartPointer<vtkActor> skin_faces(const CutBody& body, const ColourScale& sca
   mapper->SetInputConnection(normals->GetOutputPort());
   auto actor = coloured(*mapper, scale);
   actor->GetProperty()->SetInterpolationToPhong();
-  actor->GetProperty()->SetAmbient(0.50);
-  actor->GetProperty()->SetDiffuse(0.53);
-  actor->GetProperty()->SetSpecular(0.10);
-  actor->GetProperty()->SetSpecularPower(24);
+  // No highlights: they would pass for values.
+  actor->GetProperty()->SetAmbient(0.58);
+  actor->GetProperty()->SetDiffuse(0.45);
+  actor->GetProperty()->SetSpecular(0);
   return actor;
 }
 

@@ -14,9 +14,9 @@ namespace tessera::post {
 using Point = Eigen::Vector3f;
 
 struct Body {
-  std::vector<Point> points;     ///< m, where the particles are at that time
-  std::vector<double> values;    ///< SI
-  std::vector<float> radii;      ///< of the spheres that stand for the particles, m
+  std::vector<Point> points;      ///< m, where the particles are at that time
+  std::vector<double> values;     ///< SI
+  std::vector<float> radii;       ///< of the spheres that stand for the particles, m
   std::vector<Vec3> displacement; ///< m
   /// How much stress there is, Pa, for fields that mean nothing without; empty with others.
   std::vector<double> stress;
@@ -38,8 +38,8 @@ void mask_unstressed(std::vector<Body>& bodies);
 /// they are smaller. Before that, all have one radius that lets nothing shine through.
 void touch(Body& body, double largest);
 
-/// The plane that leaves the far part of a body as seen along `direction`: across panel.clip at panel.clip_at,
-/// else in the middle of `box`.
+/// The plane that leaves the far part of a body as seen along `direction`: across panel.clip at
+/// panel.clip_at, else in the middle of `box`.
 CutPlane cut_plane(const Panel& panel, const Eigen::AlignedBox3f& box, const Point& direction);
 
 /// Keeps the particles beyond a plane; says of each that was there whether it was kept. InputError where none

@@ -21,8 +21,8 @@ Range range_of(const std::vector<Body>& bodies, double outermost);
 
 /// The drawing's own limits where it has them. Where a handful of particles lies far out (a spurious strain
 /// of 150 beside a body at 3) they would hide the body: then the scale ends where the others do. A cloud's
-/// scale always spans the likely ones. Two-sided fields that lie on one side of their centre get a one-sided scale
-/// that begins there. The extremes are printed beside the scale in any case.
+/// scale always spans the likely ones. Two-sided fields that lie on one side of their centre get a one-sided
+/// scale that begins there. The extremes are printed beside the scale in any case.
 ColourScale scale_of(const Drawing& drawing, const Quantity& quantity, const Range& range);
 
 } // namespace tessera::post

@@ -37,7 +37,8 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
                                    : fmt::format("from {} to {}", extreme(range.low), extreme(range.high));
   canvas.text({left, low - 32}, extremes, {.size = 21, .width = width - 20});
   if (range.gaps) {
-    canvas.rectangle({left, low - 67}, {left + 18, low - 51}, scale(std::numeric_limits<double>::quiet_NaN()));
+    canvas.rectangle({left, low - 67}, {left + 18, low - 51},
+                     scale(std::numeric_limits<double>::quiet_NaN()));
     canvas.text({left + 26, low - 59}, "too little stress", {.size = 21, .width = width - 46});
   }
 }

@@ -81,11 +81,11 @@ const BodyMesh& Shapes::body(const std::string& file) {
 const Skin& Shapes::skin(const Panel& panel) {
   const std::array key{panel.body, panel.cloud, panel.clip.empty() ? std::string() : "inside"};
   const auto found = skins_.find(key);
-  return found != skins_.end() ? found->second
-                               : skins_
-                                     .emplace(key, skin_of(body(panel.body), io::read_cloud(panel.cloud),
-                                                           !panel.clip.empty()))
-                                     .first->second;
+  return found != skins_.end()
+             ? found->second
+             : skins_
+                   .emplace(key, skin_of(body(panel.body), io::read_cloud(panel.cloud), !panel.clip.empty()))
+                   .first->second;
 }
 
 Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const CellMesh& cells, const View& view,
@@ -93,8 +93,8 @@ Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const Cell
   Scene scene{panel, std::move(body), {}, {}, {}, {}, "", {}};
   scene.second_line = size_of(drawing.cloud ? scene.body.reference : span_of(scene.body), scene.body.plane);
   if (!drawing.tools.empty())
-    scene.tools = tool_shapes(drawing.tools, panel.time, view, span_of(scene.body).merged(scene.body.reference),
-                              band_width(scene.body));
+    scene.tools = tool_shapes(drawing.tools, panel.time, view,
+                              span_of(scene.body).merged(scene.body.reference), band_width(scene.body));
   const bool cut = !panel.clip.empty() && !scene.body.plane;
   const auto plane = [&] { return cut_plane(panel, span_of(scene.body), view.into); };
   const auto show = [&](const Vec3& x) { scene.extent.extend(view.seen(x.cast<float>())); };
@@ -146,13 +146,13 @@ void fill(vtkRenderer& renderer, const Scene& scene, const View& view, const Col
           double metres_per_pixel) {
   const Optics optics{depth_of(scene.extent), metres_per_pixel};
   const auto spacing = static_cast<float>(scene.body.spacing);
-  const Point nearer = -0.05f * spacing * view.into;
+  const Point nearer = -0.1f * spacing * view.into;
   if (!scene.cells.faces.empty()) {
     renderer.AddActor(cell_faces(scene.cells, scene.body.values, scale));
     // Neither lines nor dots may hide the colours of small cells.
     const double cell = scene.body.spacing / metres_per_pixel;
     renderer.AddActor(
-        cell_edges(scene.cells, 0.2f * nearer, static_cast<float>(std::clamp(cell / 14, 0.4, 1.4))));
+        cell_edges(scene.cells, 0.1f * nearer, static_cast<float>(std::clamp(cell / 14, 0.4, 1.4))));
     if (scene.body.plane && cell >= 14)
       renderer.AddActor(dots(scene.body, 0.2, optics));
   } else if (scene.skin) {

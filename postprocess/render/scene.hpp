@@ -36,13 +36,13 @@ class Shapes {
 
 struct Scene {
   Panel panel;
-  Body body;                                 ///< what is left of it by the cut
-  CellSurfaces cells;                        ///< none: particles or skin are drawn
-  std::optional<CutBody> skin;               ///< absent: particles or cells are drawn
-  std::vector<std::array<Vec3, 2>> outline;  ///< of the undeformed body
+  Body body;                                ///< what is left of it by the cut
+  CellSurfaces cells;                       ///< none: particles or skin are drawn
+  std::optional<CutBody> skin;              ///< absent: particles or cells are drawn
+  std::vector<std::array<Vec3, 2>> outline; ///< of the undeformed body
   ToolShapes tools;
-  std::string second_line;                   ///< of the caption
-  Eigen::AlignedBox3f extent;                ///< in the view
+  std::string second_line;    ///< of the caption
+  Eigen::AlignedBox3f extent; ///< in the view
 };
 
 /// `cells` are those of panel.cells.

@@ -56,7 +56,8 @@ Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<co
   const Vec<D> x = point.head<D>();
   const std::string name = fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) m", point[0], point[1], point[2]);
   require(x.allFinite(), name + " is not a place", "", "give finite coordinates");
-  require(candidates.size() > 2 * D, fmt::format("values at a point need more than {} particles", candidates.size()), "",
+  require(candidates.size() > 2 * D,
+          fmt::format("values at a point need more than {} particles", candidates.size()), "",
           "ask for more particles");
 
   const std::vector<double> all = distances<D>(x, X, candidates, hidden, -1);

@@ -132,7 +132,8 @@ animation = true
     EXPECT_GT(place.read(std::string("a/") + name).size(), 10'000U) << name << "\n" << run.err;
   EXPECT_NE(place.read("a/moving.png").find("acTL"), std::string::npos);
   const Result refused = place.tessera({"post", "a", "--set", "output.picture.1.clip_at=5"}, screen);
-  EXPECT_NE(refused.err.find("no skin.png: nothing of the body lies beyond"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("no skin.png: nothing of the body lies beyond"), std::string::npos)
+      << refused.err;
 }
 
 TEST(Run, PicturesAndComparison) {

@@ -201,10 +201,7 @@ INSTANTIATE_TEST_SUITE_P(
             "name = \"strain\"",
             "name = \"strain\"\nframes = 40",
             {"more than 12 frames side by side", "animation"}},
-        Bad{"CutNowhere",
-            "name = \"strain\"",
-            "name = \"strain\"\nclip_at = 0.01",
-            {"clip_at does nothing"}},
+        Bad{"CutNowhere", "name = \"strain\"", "name = \"strain\"\nclip_at = 0.01", {"clip_at does nothing"}},
         Bad{"BrokenToml", "young = 117e9", "young = ", {"not valid TOML", place("young", 1).substr(0, 13)}},
         Bad{"RepeatedKey", "law = \"hencky\"", "law = \"hencky\"\nlaw = \"hencky\"", {"not valid TOML"}}),
     [](const auto& bad) { return std::string(bad.param.name); });

@@ -1,5 +1,5 @@
-#include "io/body_file.hpp"
 #include "core/error.hpp"
+#include "io/body_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "postprocess/animated_png.hpp"
 #include "core/error.hpp"
+#include "postprocess/animated_png.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "postprocess/skin.hpp"
 #include "postprocess/cut_body.hpp"
 #include "postprocess/outline.hpp"
 #include "postprocess/refine.hpp"
+#include "postprocess/skin.hpp"
 #include "preprocess/geometry/body_mesh.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/domains.hpp"
@@ -137,7 +137,8 @@ TEST(Skin, LinearFieldsComeOutExactly) {
 
 TEST(Skin, APartWithoutParticlesFollowsTheNearest) {
   const ParticleCloud cloud = test::box_lattice(4, 4, 4, Vec3::Ones());
-  const Skin skin = skin_of(preprocess::body_mesh(test::box_domain(Vec3::Zero(), Vec3(1, 1, 9))), cloud, false);
+  const Skin skin =
+      skin_of(preprocess::body_mesh(test::box_domain(Vec3::Zero(), Vec3(1, 1, 9))), cloud, false);
   std::vector<Vec3> u(cloud.X.size(), Vec3(0, 0, 2));
   for (std::size_t p = 0; const Vec3& x : moved(skin, u))
     EXPECT_NEAR((x - skin.mesh.points[p++] - u[0]).norm(), 0, 1e-12);
