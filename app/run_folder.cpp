@@ -82,7 +82,7 @@ void remove_solution(const fs::path& folder) {
 
 void remove_all_results(const fs::path& folder) {
   remove_solution(folder);
-  for (const char* name : {"cloud.vtp", "cells.vtu", "quality.json", "cloud.png"})
+  for (const char* name : {"cloud.vtp", "body.vtu", "cells.vtu", "quality.json", "cloud.png"})
     fs::remove(folder / name);
 }
 

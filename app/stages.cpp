@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/interrupt.hpp"
 #include "io/atomic_file.hpp"
+#include "io/body_file.hpp"
 #include "io/cloud_file.hpp"
 #include "io/field_series.hpp"
 #include "io/history.hpp"
@@ -100,6 +101,7 @@ void begin_results(const Case& the_case, const Options& options, const preproces
   remove_all_results(folder);
   store_case(the_case, options.overrides, folder);
   io::write_cloud(prepared.cloud, folder / "cloud.vtp");
+  io::write_body(prepared.body, folder / "body.vtu");
   if (cells)
     io::write_cells(prepared.cells, prepared.cloud, folder / "cells.vtu");
   io::write_text(folder / "quality.json", preprocess::to_json(prepared.quality));
@@ -143,9 +145,11 @@ Solution solve_particles(const Case& the_case, const ParticleCloud& cloud, const
 }
 
 std::vector<fs::path> draw_results(const Case& the_case, const fs::path& folder, Console& console) {
+  constexpr double far_away = 100; // m, of lines that go on for ever: beyond every picture
   std::vector<fs::path> files;
   if (!the_case.pictures.empty())
-    files = post::draw(the_case.pictures, {folder}, {the_case.title}, folder, console.progress());
+    files = post::draw(the_case.pictures, {folder}, {the_case.title}, folder, console.progress(),
+                       post::tools_of(the_case.scene.walls, far_away));
   for (const fs::path& file : post::write_report(folder, console.progress()))
     files.push_back(file);
   return files;

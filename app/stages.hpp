@@ -28,8 +28,8 @@ std::filesystem::path results_folder(const Case& the_case, const Options& option
 /// the cells where they are asked for, and where they are not too many to be drawn.
 preprocess::Prepared prepare_particles(const Case& the_case, bool cells, Console& console);
 
-/// Empties the folder of earlier results and stores the case and its particles in it: cloud.vtp, quality.json
-/// and, where `cells`, cells.vtu.
+/// Empties the folder of earlier results and stores the case and its particles in it: cloud.vtp, body.vtu,
+/// quality.json and, where `cells`, cells.vtu.
 void begin_results(const Case& the_case, const Options& options, const preprocess::Prepared& prepared,
                    const std::filesystem::path& folder, bool cells);
 

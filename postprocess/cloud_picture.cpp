@@ -82,6 +82,9 @@ Drawing cloud_drawing(const fs::path& folder, const ParticleCloud& cloud, const 
     drawing.panels = {{file, label, no_time, pitch, "", ""},
                       {file, polyhedra.empty() ? "near half left out" : "Voronoi cells, near half left out",
                        no_time, pitch, "y", polyhedra}};
+  if (fs::exists(folder / "body.vtu"))
+    for (Panel& panel : drawing.panels)
+      panel.body = fs::absolute(folder / "body.vtu").string();
   return drawing;
 }
 

@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double time_limit = 300; ///< s, for all pictures of one job
-
 /// A display of our own. Left to itself xvfb-run takes the first that looks free; a server that is just
 /// ending then removes the new one's socket, and the renderer aborts.
 int display_number() {
@@ -46,16 +44,23 @@ std::string last_line(const std::string& output) {
   return last.substr(0, 300);
 }
 
-std::string why_it_failed(const ChildEnd& end) {
+std::string why_it_failed(const ChildEnd& end, double seconds) {
   if (end.how == ChildEnd::How::not_started)
     return "xvfb-run could not be started";
   if (end.how == ChildEnd::How::out_of_time)
-    return fmt::format("the renderer was stopped after {:.0f} s", time_limit);
+    return fmt::format("the renderer was stopped after {:.0f} s", seconds);
   const std::string last = last_line(end.output);
   return last.empty() ? fmt::format("the renderer ended with status {}", end.code) : last;
 }
 
 } // namespace
+
+double time_limit(const RenderJob& job) {
+  double seconds = 300;
+  for (const Drawing& drawing : job.drawings)
+    seconds += 5 * static_cast<double>(drawing.panels.size());
+  return seconds;
+}
 
 std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   if (job.drawings.empty() && job.plots.empty())
@@ -78,7 +83,7 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   // next window may find nobody. Asked to end before it is killed, so that xvfb-run stops its server.
   const ChildEnd end = run_child({xvfb.string(), "-n", std::to_string(display_number()), "-a", "-s",
                                   "-screen 0 1600x1200x24 -noreset", program.string(), file.string()},
-                                 scratch.path(), {time_limit, 0, 1.0});
+                                 scratch.path(), {time_limit(job), 0, 1.0});
   if (end.how == ChildEnd::How::interrupted)
     stop_if_interrupted("drawing");
   std::vector<fs::path> written;
@@ -88,7 +93,7 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   for (const std::string& note : notes)
     progress.note(note);
   if (written.size() + notes.size() < job.drawings.size() + job.plots.size())
-    progress.note(fmt::format("pictures are missing: {}", why_it_failed(end)));
+    progress.note(fmt::format("pictures are missing: {}", why_it_failed(end, time_limit(job))));
   return written;
 } catch (const std::exception& error) {
   // A picture never fails a run: only an interruption goes on to the caller.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/progress.hpp"
+#include "postprocess/tool.hpp"
 
 #include <array>
 #include <filesystem>
@@ -17,15 +18,18 @@ namespace tessera::post {
 
 /// One body in a drawing.
 struct Panel {
-  std::string file;   ///< .vtu frame or .vtp cloud
-  std::string label;  ///< below it; may be empty
-  double time = 0;    ///< s; NaN: not shown
-  double spacing = 0; ///< of the particles, m; 0: found from the points
-  std::string clip;   ///< "", "x", "y", "z"
-  std::string cells;  ///< .vtu with the Voronoi cells to draw in place of the spheres; may be empty
+  std::string file;    ///< .vtu frame or .vtp cloud
+  std::string label;   ///< below it; may be empty
+  double time = 0;     ///< s; NaN: not shown
+  double spacing = 0;  ///< of the particles, m; 0: found from the points
+  std::string clip;    ///< "", "x", "y", "z": only what is beyond a plane across that axis
+  std::string cells;   ///< .vtu with the Voronoi cells to draw in place of the spheres; may be empty
+  std::string body{};  ///< .vtu with the shape of the undeformed body; may be empty
+  std::string cloud{}; ///< .vtp with the particles before they moved, wanted for a skin
+  double clip_at = std::numeric_limits<double>::quiet_NaN(); ///< where, m; NaN: in the middle of the body
 };
 
-/// Particles coloured by a field, panels side by side on one colour scale and one length scale.
+/// A body coloured by a field, panels side by side on one colour scale and one length scale.
 struct Drawing {
   std::string file; ///< PNG to write
   std::string title;
@@ -33,10 +37,14 @@ struct Drawing {
   std::string view = "front";
   double minimum = std::numeric_limits<double>::quiet_NaN(); ///< SI; NaN: over all panels
   double maximum = std::numeric_limits<double>::quiet_NaN();
-  bool outline = false;
+  bool outline = false;    ///< the undeformed body as lines; a box around it where its shape is not known
+  bool skin = false;       ///< as one smooth piece in place of particles, where body and cloud are known
+  bool one_place = false;  ///< panels show the same part of space: moments of one run
+  bool one_by_one = false; ///< panels are the frames of an animation
   /// Particles before a run: values over their mean, each sphere as large as its distance to others (on a
   /// lattice half the panel's spacing), and a second line of caption that counts what is seen of a cut body.
   bool cloud = false;
+  std::vector<Tool> tools{}; ///< around the body of each panel
   std::vector<Panel> panels;
 };
 
@@ -71,6 +79,9 @@ struct RenderJob {
   std::vector<Drawing> drawings;
   std::vector<Plot> plots;
 };
+
+/// How long drawing may take, s.
+double time_limit(const RenderJob& job);
 
 /// Draws everything and returns the files that were written. What could not be drawn, and why, is a note on
 /// `progress`; only an interruption throws.

@@ -22,18 +22,56 @@ std::vector<double> numbers(const json& values) {
   return out;
 }
 
+json of(const Vec3& x) {
+  return {x[0], x[1], x[2]};
+}
+
+Vec3 vector_of(const json& value) {
+  return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>()};
+}
+
+json of(const Tool& tool) {
+  json line = json::array();
+  for (const Vec3& x : tool.line)
+    line.push_back(of(x));
+  return {{"point", of(tool.point)},
+          {"normal", of(tool.normal)},
+          {"line", line},
+          {"velocity", of(tool.velocity)}};
+}
+
+Tool tool_of(const json& value) {
+  Tool tool{vector_of(value.at("point")), vector_of(value.at("normal")), {}, vector_of(value.at("velocity"))};
+  for (const json& x : value.at("line"))
+    tool.line.push_back(vector_of(x));
+  return tool;
+}
+
 json of(const Panel& panel) {
   return {{"file", panel.file},       {"label", panel.label}, {"time", panel.time},
-          {"spacing", panel.spacing}, {"clip", panel.clip},   {"cells", panel.cells}};
+          {"spacing", panel.spacing}, {"clip", panel.clip},   {"cells", panel.cells},
+          {"body", panel.body},       {"cloud", panel.cloud}, {"clip_at", panel.clip_at}};
 }
 
 json of(const Drawing& drawing) {
-  json panels = json::array();
+  json panels = json::array(), tools = json::array();
+  for (const Tool& tool : drawing.tools)
+    tools.push_back(of(tool));
   for (const Panel& panel : drawing.panels)
     panels.push_back(of(panel));
-  return {{"file", drawing.file},       {"title", drawing.title},     {"field", drawing.field},
-          {"view", drawing.view},       {"minimum", drawing.minimum}, {"maximum", drawing.maximum},
-          {"outline", drawing.outline}, {"cloud", drawing.cloud},     {"panels", panels}};
+  return {{"file", drawing.file},
+          {"title", drawing.title},
+          {"field", drawing.field},
+          {"view", drawing.view},
+          {"minimum", drawing.minimum},
+          {"maximum", drawing.maximum},
+          {"outline", drawing.outline},
+          {"skin", drawing.skin},
+          {"one_place", drawing.one_place},
+          {"one_by_one", drawing.one_by_one},
+          {"cloud", drawing.cloud},
+          {"tools", tools},
+          {"panels", panels}};
 }
 
 json of(const Chart& chart) {
@@ -52,12 +90,25 @@ json of(const Chart& chart) {
 }
 
 Drawing drawing_of(const json& value) {
-  Drawing drawing{value.at("file"),    value.at("title"),           value.at("field"),
-                  value.at("view"),    number(value.at("minimum")), number(value.at("maximum")),
-                  value.at("outline"), value.at("cloud"),           {}};
+  Drawing drawing{value.at("file"),
+                  value.at("title"),
+                  value.at("field"),
+                  value.at("view"),
+                  number(value.at("minimum")),
+                  number(value.at("maximum")),
+                  value.at("outline"),
+                  value.at("skin"),
+                  value.at("one_place"),
+                  value.at("one_by_one"),
+                  value.at("cloud"),
+                  {},
+                  {}};
+  for (const json& tool : value.at("tools"))
+    drawing.tools.push_back(tool_of(tool));
   for (const json& panel : value.at("panels"))
     drawing.panels.push_back({panel.at("file"), panel.at("label"), number(panel.at("time")),
-                              panel.at("spacing"), panel.at("clip"), panel.at("cells")});
+                              panel.at("spacing"), panel.at("clip"), panel.at("cells"), panel.at("body"),
+                              panel.at("cloud"), number(panel.at("clip_at"))});
   return drawing;
 }
 

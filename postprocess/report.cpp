@@ -183,6 +183,7 @@ void add_files(Document& report, const fs::path& folder) {
       {"history.csv", "energies, momenta, forces and probes against time"},
       {"fields.pvd", "the frames, for ParaView"},
       {"cloud.vtp", "the particles before the run, for ParaView and for --cloud"},
+      {"body.vtu", "the shape of the undeformed body"},
       {"cells.vtu", "their Voronoi cells"},
       {"quality.json", "the figures of the particles"}};
   FileList list;

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/point_grid.hpp"
 #include "io/cloud_file.hpp"
 #include "postprocess/quantity.hpp"
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 namespace tessera::post {
 namespace {
@@ -23,17 +23,6 @@ std::vector<std::string> names_of(const std::vector<io::StoredField>& fields) {
   for (const io::StoredField& field : fields)
     names.push_back(field.name);
   return names;
-}
-
-/// At `point` among particles at `x`; nothing outside them.
-std::optional<solver::Sampling> sampled(const ParticleCloud& cloud, const std::vector<Vec3>& x,
-                                        const Vec3& point) {
-  try {
-    return cloud.dimension == 3 ? solver::build_sampling<3>(point, x, cloud.V, cloud.hidden)
-                                : solver::build_sampling<2>(point, x, cloud.V, cloud.hidden);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
 }
 
 /// F of the affine map that takes these particles nearest to where they are, in the least squares.
@@ -54,40 +43,89 @@ Mat3 affine_map(const std::vector<std::int32_t>& particles, const std::vector<Ve
   return moved * spread.inverse();
 }
 
-/// At a place of the deformed body. In one that is flattened or drawn out particles lie far closer in one
-/// direction than in another, so that distances are taken after the deformation about the particle nearest to
-/// the point is undone, and only between particles that were near to that one: what is folded onto them is
-/// not theirs.
-std::optional<solver::Sampling> sampled_now(const Snapshot& snapshot, const Vec3& point) {
-  const ParticleCloud& cloud = snapshot.cloud;
-  const std::vector<Vec3>& now = snapshot.frame.x;
-  const auto a = static_cast<std::size_t>(std::min_element(now.begin(), now.end(),
-                                                           [&](const Vec3& one, const Vec3& other) {
-                                                             return (one - point).squaredNorm() <
-                                                                    (other - point).squaredNorm();
-                                                           }) -
-                                          now.begin());
-  const std::optional<solver::Sampling> about = sampled(cloud, cloud.X, cloud.X[a]);
-  if (!about)
-    return std::nullopt;
-  const Mat3 F = affine_map(about->particle, cloud.X, now, cloud.dimension);
-  if (!(F.determinant() > 0))
-    return std::nullopt; // the particles lie in disorder
-  const Mat3 undone = F.inverse();
-  const double vicinity = 4 * about->support;
-  const Vec3 far_away = Vec3::Constant(std::numeric_limits<double>::infinity());
-  std::vector<Vec3> y(now.size(), far_away);
-  for (std::size_t b = 0; b < y.size(); ++b)
-    if ((cloud.X[b] - cloud.X[a]).norm() < vicinity)
-      y[b] = undone * (now[b] - point);
-  return sampled(cloud, y, Vec3::Zero());
-}
-
 io::StoredField component(const io::StoredField& whole, const std::string& name, std::size_t c) {
   io::StoredField field{name, 1, {}};
   for (std::size_t i = c; i < whole.values.size(); i += static_cast<std::size_t>(whole.components))
     field.values.push_back(whole.values[i]);
   return field;
+}
+
+/// Particles within `radius` of a point, ascending.
+std::vector<std::int32_t> within(const PointGrid& grid, const Vec3& point, double radius) {
+  std::vector<std::int32_t> found;
+  grid.near(point, radius, [&](std::int32_t b, double distance) {
+    if (distance <= radius)
+      found.push_back(b);
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// At a place of the undeformed body, among the particles near it where they decide, else among all; nothing
+/// outside.
+template <int D>
+std::optional<solver::Sampling> sampled_then(const ParticleCloud& cloud, const Vec3& point,
+                                             const PointGrid& grid) {
+  // Where a ball holds more than 2 D particles, thrice it holds all that the nearest one's surroundings are
+  // made of.
+  double ball = 1.2 * cloud.spacing;
+  while (ball < 10 * cloud.spacing && within(grid, point, ball).size() <= 2 * D)
+    ball *= 1.3;
+  try {
+    const auto near = within(grid, point, 3 * ball);
+    solver::Sampling sampling = solver::build_sampling<D>(point, cloud.X, cloud.V, near, cloud.hidden);
+    if (sampling.support <= 3 * ball)
+      return sampling;
+  } catch (const InputError&) { // nobody near, or hidden
+  }
+  try {
+    return solver::build_sampling<D>(point, cloud.X, cloud.V, cloud.hidden);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// At a place of the deformed body. In one that is flattened or drawn out particles lie far closer in one
+/// direction than in another, so that distances are taken after the deformation about the particle nearest to
+/// the point is undone, and only between particles that were near to that one: what is folded onto them is
+/// not theirs.
+template <int D>
+std::optional<solver::Sampling> sampled_now(const Snapshot& snapshot, const Vec3& point,
+                                            const PointGrid& grid) {
+  const ParticleCloud& cloud = snapshot.cloud;
+  const std::vector<Vec3>& now = snapshot.frame.x;
+  const auto nearest = std::min_element(now.begin(), now.end(), [&](const Vec3& a, const Vec3& b) {
+    return (a - point).squaredNorm() < (b - point).squaredNorm();
+  });
+  const Vec3& X = cloud.X[static_cast<std::size_t>(nearest - now.begin())];
+  const std::optional<solver::Sampling> about = sampled_then<D>(cloud, X, grid);
+  if (!about)
+    return std::nullopt;
+  const Mat3 F = affine_map(about->particle, cloud.X, now, D);
+  if (!(F.determinant() > 0))
+    return std::nullopt; // the particles lie in disorder
+  const Mat3 undone = F.inverse();
+  const std::vector<std::int32_t> near = within(grid, X, 4 * about->support);
+  std::vector<Vec3> y(now.size(), Vec3::Zero());
+  for (const std::int32_t b : near)
+    y[b] = undone * (now[b] - point);
+  try {
+    return solver::build_sampling<D>(Vec3::Zero(), y, cloud.V, near, cloud.hidden);
+  } catch (const InputError&) { // outside
+    return std::nullopt;
+  }
+}
+
+template <class Sampled>
+std::vector<std::optional<solver::Sampling>>
+each_sampled(const ParticleCloud& cloud, std::span<const Vec3> points, const Sampled& sampled) {
+  const PointGrid grid(cloud.X, 2 * cloud.spacing);
+  std::vector<std::optional<solver::Sampling>> out(points.size());
+  for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
+    const auto p = static_cast<std::size_t>(i);
+    out[p] = sampled(points[p], grid);
+  });
+  return out;
 }
 
 } // namespace
@@ -145,13 +183,19 @@ io::StoredField field_of(const Snapshot& snapshot, const std::string& name) {
 
 std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot, std::span<const Vec3> points,
                                                        Configuration configuration) {
-  std::vector<std::optional<solver::Sampling>> out(points.size());
-  for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
-    const auto p = static_cast<std::size_t>(i);
-    out[p] = configuration == Configuration::reference ? sampled(snapshot.cloud, snapshot.cloud.X, points[p])
-                                                       : sampled_now(snapshot, points[p]);
+  if (configuration == Configuration::reference)
+    return samplings(snapshot.cloud, points);
+  return each_sampled(snapshot.cloud, points, [&](const Vec3& point, const PointGrid& grid) {
+    return snapshot.cloud.dimension == 3 ? sampled_now<3>(snapshot, point, grid)
+                                         : sampled_now<2>(snapshot, point, grid);
   });
-  return out;
+}
+
+std::vector<std::optional<solver::Sampling>> samplings(const ParticleCloud& cloud,
+                                                       std::span<const Vec3> points) {
+  return each_sampled(cloud, points, [&](const Vec3& point, const PointGrid& grid) {
+    return cloud.dimension == 3 ? sampled_then<3>(cloud, point, grid) : sampled_then<2>(cloud, point, grid);
+  });
 }
 
 Eigen::VectorXd value_at(const io::StoredField& field, const solver::Sampling& point) {

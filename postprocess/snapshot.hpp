@@ -44,6 +44,10 @@ io::StoredField field_of(const Snapshot& snapshot, const std::string& name);
 std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot, std::span<const Vec3> points,
                                                        Configuration configuration);
 
+/// The same in the reference configuration.
+std::vector<std::optional<solver::Sampling>> samplings(const ParticleCloud& cloud,
+                                                       std::span<const Vec3> points);
+
 /// The field there, one entry a component.
 Eigen::VectorXd value_at(const io::StoredField& field, const solver::Sampling& point);
 

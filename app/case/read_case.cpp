@@ -126,6 +126,9 @@ void store_what_is_drawn(const std::vector<post::Picture>& pictures, std::vector
       fields.push_back(picture.field);
 }
 
+constexpr int most_abreast = 12;    ///< frames of one picture
+constexpr int most_frames = 10'000; ///< of an animation
+
 post::Picture read_picture(Table table, const std::vector<post::Picture>& earlier) {
   post::Picture picture;
   picture.name = table.name("name");
@@ -140,11 +143,19 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
   picture.field = table.choice("field", fields);
   picture.view =
       table.choice_or("view", picture.view, {"front", "back", "left", "right", "top", "bottom", "iso"});
+  picture.skin = table.choice_or("style", "particles", {"particles", "skin"}) == "skin";
   picture.clip = table.choice_or("clip", "", {"x", "y", "z"});
+  picture.clip_at = table.optional_number("clip_at");
   picture.frame = table.number_or_word("frame", picture.frame);
+  picture.animation = table.boolean_or("animation", picture.animation);
+  if (table.is_list("frames"))
+    picture.times = table.number_list("frames");
+  else
+    picture.frames = static_cast<int>(table.integer_or("frames", 0, 2, most_frames));
   picture.minimum = table.optional_number("minimum");
   picture.maximum = table.optional_number("maximum");
   picture.outline = table.boolean_or("outline", picture.outline);
+  picture.tools = table.boolean_or("tools", picture.tools);
   table.finish();
 
   const bool word = picture.frame == "last" || picture.frame == "first";
@@ -152,6 +163,13 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
                 picture.frame.find_first_not_of("0123456789.e+-") != std::string::npos))
     table.refuse("frame", fmt::format("a picture's frame is {}", in_quotes(picture.frame)),
                  "it must be \"first\", \"last\" or a time in seconds");
+  if (table.has("frame") && (table.has("frames") || picture.animation))
+    table.refuse("frame", "a picture has a frame and several", "keep frame, or frames and animation");
+  if (!picture.animation && std::max<std::size_t>(picture.times.size(), picture.frames) > most_abreast)
+    table.refuse("frames", fmt::format("a picture has more than {} frames side by side", most_abreast),
+                 "choose fewer, or show them one after the other: animation = true");
+  if (picture.clip_at && picture.clip.empty())
+    table.refuse("clip_at", "clip_at does nothing to a picture that is not cut", "remove it or add clip");
   if (picture.minimum && picture.maximum && *picture.minimum >= *picture.maximum)
     table.refuse("maximum", "a picture's maximum is not above its minimum",
                  "leave both out for the field's own range");

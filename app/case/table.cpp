@@ -68,6 +68,10 @@ bool Table::is_table(const std::string& key) const {
   return has(key) && table_->get(key)->is_table();
 }
 
+bool Table::is_list(const std::string& key) const {
+  return has(key) && table_->get(key)->is_array();
+}
+
 void Table::refuse(const std::string& key, const std::string& what, const std::string& remedy) const {
   throw InputError(what, document_->where(path_of(key)), remedy);
 }

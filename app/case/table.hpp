@@ -93,6 +93,7 @@ class Table {
   bool has(const std::string& key) const;
   bool is_text(const std::string& key) const;
   bool is_table(const std::string& key) const;
+  bool is_list(const std::string& key) const;
   bool is_overridden(const std::string& key) const { return document_->is_overridden(path_of(key)); }
   const std::string& path() const { return path_; }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }

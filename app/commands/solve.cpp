@@ -33,8 +33,10 @@ void solve(const Options& options) {
         fmt::format("particles from {}", (named ? options.cloud : folder / "cloud.vtp").string()));
     remove_solution(folder);
     store_case(the_case, options.overrides, folder);
-    if (named)
+    if (named) {
       io::write_cloud(*cloud, folder / "cloud.vtp");
+      std::filesystem::remove(folder / "body.vtu"); // of another body, for all that is known
+    }
   } else {
     preprocess::Prepared prepared = prepare_particles(the_case, false, console);
     spent = spent_so_far();

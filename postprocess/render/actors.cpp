@@ -5,16 +5,21 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointGaussianMapper.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <fmt/format.h>
+
+#include <array>
+#include <limits>
 
 namespace tessera::post {
 namespace {
@@ -69,23 +74,50 @@ vtkSmartPointer<vtkActor> splats(const std::vector<Point>& positions, const std:
   return actor;
 }
 
-/// Lines of one dark colour.
-vtkSmartPointer<vtkActor> line_actor(vtkPolyData* data, double grey, float width) {
-  const vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetColor(grey, grey, grey);
-  actor->GetProperty()->SetLineWidth(width);
-  return actor;
-}
-
-vtkSmartPointer<vtkPoints> points_of(const CellSurfaces& cells) {
+vtkSmartPointer<vtkPoints> points_of(const std::vector<Vec3>& positions) {
   auto points = vtkSmartPointer<vtkPoints>::New();
-  for (const Vec3& x : cells.points)
+  for (const Vec3& x : positions)
     points->InsertNextPoint(x.data());
   return points;
+}
+
+/// Polygons whose colours are found between the points, not mixed from theirs.
+vtkSmartPointer<vtkPolyData> polygons_of(const CutBody& body, const std::vector<CutBody::Polygon>& faces) {
+  const vtkNew<vtkCellArray> polygons;
+  for (const CutBody::Polygon& face : faces) {
+    polygons->InsertNextCell(static_cast<int>(face.size()));
+    for (const std::int32_t p : face)
+      polygons->InsertCellPoint(p);
+  }
+  const vtkNew<vtkFloatArray> values;
+  for (const double value : body.values)
+    values->InsertNextValue(static_cast<float>(value));
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points_of(body.points));
+  data->SetPolys(polygons);
+  data->GetPointData()->SetScalars(values);
+  return data;
+}
+
+vtkSmartPointer<vtkActor> coloured(vtkPolyDataMapper& mapper, const ColourScale& scale) {
+  constexpr int shades = 512;
+  const vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(shades);
+  table->SetRange(scale.minimum, scale.maximum);
+  const auto entry = [&](double value) {
+    const Colour colour = scale(value);
+    return std::array{colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0, 1.0};
+  };
+  for (int s = 0; s < shades; ++s)
+    table->SetTableValue(s,
+                         entry(scale.minimum + (s + 0.5) / shades * (scale.maximum - scale.minimum)).data());
+  table->SetNanColor(entry(std::numeric_limits<double>::quiet_NaN()).data());
+  mapper.SetLookupTable(table);
+  mapper.UseLookupTableScalarRangeOn();
+  mapper.InterpolateScalarsBeforeMappingOn();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(&mapper);
+  return actor;
 }
 
 } // namespace
@@ -117,7 +149,7 @@ vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vecto
     colours->InsertNextTypedTuple(colour.data());
   }
   const vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(cells));
+  data->SetPoints(points_of(cells.points));
   data->SetPolys(polygons);
   data->GetCellData()->SetScalars(colours);
   const vtkNew<vtkPolyDataMapper> mapper;
@@ -132,34 +164,87 @@ vtkSmartPointer<vtkActor> cell_faces(const CellSurfaces& cells, const std::vecto
 }
 
 vtkSmartPointer<vtkActor> cell_edges(const CellSurfaces& cells, const Point& towards_viewer, float width) {
-  const vtkNew<vtkCellArray> lines;
-  for (const auto& [a, b] : cells.edges) {
-    const vtkIdType ends[2] = {a, b};
-    lines->InsertNextCell(2, ends);
+  std::vector<std::array<Vec3, 2>> lines;
+  for (const auto& [a, b] : cells.edges)
+    lines.push_back({cells.points[a], cells.points[b]});
+  return drawn_lines(lines, {0.15, width}, towards_viewer);
+}
+
+vtkSmartPointer<vtkActor> skin_faces(const CutBody& body, const ColourScale& scale) {
+  const vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(polygons_of(body, body.skin));
+  normals->SetFeatureAngle(35);
+  normals->ConsistencyOff(); // they are
+  const vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  auto actor = coloured(*mapper, scale);
+  actor->GetProperty()->SetInterpolationToPhong();
+  // No highlights: they would pass for values.
+  actor->GetProperty()->SetAmbient(0.58);
+  actor->GetProperty()->SetDiffuse(0.45);
+  actor->GetProperty()->SetSpecular(0);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> flat_faces(const CutBody& body, const std::vector<CutBody::Polygon>& faces,
+                                     const ColourScale& scale) {
+  const vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(polygons_of(body, faces));
+  auto actor = coloured(*mapper, scale);
+  actor->GetProperty()->LightingOff();
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> grey_faces(const std::vector<std::array<Vec3, 4>>& faces, double grey) {
+  const vtkNew<vtkPoints> points;
+  const vtkNew<vtkCellArray> cells;
+  for (const auto& face : faces) {
+    cells->InsertNextCell(4);
+    for (const Vec3& x : face)
+      cells->InsertCellPoint(points->InsertNextPoint(x.data()));
   }
   const vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(cells));
-  data->SetLines(lines);
-  auto actor = line_actor(data, 0.15, width);
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  const vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(grey, grey, grey);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> drawn_lines(const std::vector<std::array<Vec3, 2>>& lines, const Pen& pen,
+                                      const Point& towards_viewer) {
+  const vtkNew<vtkPoints> points;
+  const vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b] : lines) {
+    const vtkIdType ends[2] = {points->InsertNextPoint(a.data()), points->InsertNextPoint(b.data())};
+    cells->InsertNextCell(2, ends);
+  }
+  const vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  const vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetColor(pen.grey, pen.grey, pen.grey);
+  actor->GetProperty()->SetLineWidth(pen.width);
   actor->SetPosition(towards_viewer.x(), towards_viewer.y(), towards_viewer.z());
   return actor;
 }
 
-vtkSmartPointer<vtkActor> box_lines(const Eigen::AlignedBox3f& box) {
-  const vtkNew<vtkPoints> points;
-  for (const Point& p : corners(box))
-    points->InsertNextPoint(p.data());
-  const vtkNew<vtkCellArray> lines;
-  for (vtkIdType a = 0; a < 8; ++a)
-    for (const vtkIdType bit : {1, 2, 4}) {
-      const vtkIdType ends[2] = {a, a | bit};
-      if (ends[0] != ends[1])
-        lines->InsertNextCell(2, ends);
-    }
-  const vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(lines);
-  return line_actor(data, 0.55, 2);
+std::vector<std::array<Vec3, 2>> box_lines(const Eigen::AlignedBox3f& box) {
+  const std::vector<Point> points = corners(box);
+  std::vector<std::array<Vec3, 2>> lines;
+  for (std::size_t a = 0; a < 8; ++a)
+    for (const std::size_t bit : {1, 2, 4})
+      if ((a & bit) == 0)
+        lines.push_back({points[a].cast<double>(), points[a | bit].cast<double>()});
+  return lines;
 }
 
 } // namespace tessera::post

@@ -20,7 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 
 namespace tessera::post {
 namespace {
@@ -85,6 +85,19 @@ std::vector<double> values_of(vtkPointSet& set, const std::string& field, const 
   return values;
 }
 
+/// Of Triaxiality von Mises' stress and pressure together, of the LodeAngle the former; else none.
+std::vector<double> stress_behind(vtkPointSet& set, const std::string& field, const std::string& file) {
+  if (field != "Triaxiality" && field != "LodeAngle")
+    return {};
+  std::vector<double> stress = values_of(set, "VonMises", file);
+  if (field == "Triaxiality") {
+    const std::vector<double> pressure = values_of(set, "Pressure", file);
+    for (std::size_t i = 0; i < stress.size(); ++i)
+      stress[i] += std::abs(pressure[i]);
+  }
+  return stress;
+}
+
 /// Median over a sample of the mean distance to the nearest six (four in a plane): the spacing itself on a
 /// lattice.
 double typical_spacing(const std::vector<Point>& reference, bool plane) {
@@ -122,6 +135,7 @@ Body read_body(const Panel& panel, const std::string& field) {
   const auto set = read_points(panel.file);
   Body body;
   body.values = values_of(*set, field, panel.file);
+  body.stress = stress_behind(*set, field, panel.file);
   vtkDataArray* displacement = set->GetPointData()->GetArray("Displacement");
   std::vector<Point> reference;
   for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i) {
@@ -132,6 +146,7 @@ Body read_body(const Panel& panel, const std::string& field) {
     require(x.allFinite(), fmt::format("particle {} is nowhere", i), panel.file,
             "the run failed before this frame");
     body.points.push_back(x.cast<float>());
+    body.displacement.push_back(u);
     reference.push_back((x - u).cast<float>());
     body.reference.extend(reference.back());
   }
@@ -141,6 +156,18 @@ Body read_body(const Panel& panel, const std::string& field) {
     body.spacing = std::max(1e-3, 0.1 * static_cast<double>(body.reference.sizes().maxCoeff()));
   body.radii.assign(body.points.size(), static_cast<float>(radius_over_spacing * body.spacing));
   return body;
+}
+
+void mask_unstressed(std::vector<Body>& bodies) {
+  constexpr double share = 0.01;
+  double largest = 0;
+  for (const Body& body : bodies)
+    for (const double stress : body.stress)
+      largest = std::max(largest, stress);
+  for (Body& body : bodies)
+    for (std::size_t i = 0; i < body.stress.size(); ++i)
+      if (!(body.stress[i] > share * largest))
+        body.values[i] = std::numeric_limits<double>::quiet_NaN();
 }
 
 void touch(Body& body, double largest) {
@@ -155,28 +182,38 @@ void touch(Body& body, double largest) {
     body.radii[i] = static_cast<float>(std::min(0.5 * distance[i], largest));
 }
 
-std::vector<bool> keep_far_half(Body& body, const std::string& axis, const Point& direction) {
-  const int c = axis == "x" ? 0 : axis == "y" ? 1 : 2;
-  const auto [low, high] = std::minmax_element(body.points.begin(), body.points.end(),
-                                               [c](const Point& a, const Point& b) { return a[c] < b[c]; });
-  const float middle = ((*low)[c] + (*high)[c]) / 2;
-  const float side = direction[c] < -1e-6f ? -1.0f : 1.0f;
-  // A layer that lies on the middle plane stays, whichever way it was rounded.
-  const float slack = 0.01f * static_cast<float>(body.spacing);
+CutPlane cut_plane(const Panel& panel, const Eigen::AlignedBox3f& box, const Point& direction) {
+  const int axis = panel.clip == "x" ? 0 : panel.clip == "y" ? 1 : 2;
+  const double middle = 0.5 * (double{box.min()[axis]} + double{box.max()[axis]});
+  return {axis, std::isnan(panel.clip_at) ? middle : panel.clip_at, direction[axis] < -1e-6f ? -1.0 : 1.0};
+}
+
+std::vector<bool> keep_beyond(Body& body, const CutPlane& plane) {
+  // A layer that lies on the plane stays, whichever way it was rounded.
+  const double slack = 0.01 * body.spacing;
   std::vector<bool> stays(body.points.size(), false);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < body.points.size(); ++i) {
-    if (side * (body.points[i][c] - middle) < -slack)
+    if (plane.beyond(body.points[i].cast<double>()) < -slack)
       continue;
     stays[i] = true;
     body.points[kept] = body.points[i];
     body.radii[kept] = body.radii[i];
     body.values[kept++] = body.values[i];
   }
+  require(kept > 0, fmt::format("nothing of the body lies beyond {} = {} m", "xyz"[plane.axis], plane.at), "",
+          "cut it elsewhere, or leave clip_at out for its middle");
   body.points.resize(kept);
   body.radii.resize(kept);
   body.values.resize(kept);
   return stays;
+}
+
+Eigen::AlignedBox3f span_of(const Body& body) {
+  Eigen::AlignedBox3f box;
+  for (const Point& p : body.points)
+    box.extend(p);
+  return box;
 }
 
 } // namespace tessera::post

@@ -16,8 +16,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
-#include <string_view>
-
 namespace tessera::post {
 namespace {
 
@@ -112,7 +110,7 @@ void Canvas::polygon(const std::vector<Pixel>& corners, Colour fill) {
   overlay_->AddViewProp(shape(corners, true, fill, 1));
 }
 
-void Canvas::save(const std::filesystem::path& file) {
+std::string Canvas::png() {
   window_->Render();
   const vtkNew<vtkWindowToImageFilter> image;
   image->SetInput(window_);
@@ -124,7 +122,11 @@ void Canvas::save(const std::filesystem::path& file) {
   writer->Write();
   const vtkUnsignedCharArray* png = writer->GetResult();
   const auto* bytes = reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(png)->GetPointer(0));
-  io::write_text(file, std::string_view(bytes, static_cast<std::size_t>(png->GetNumberOfValues())));
+  return {bytes, static_cast<std::size_t>(png->GetNumberOfValues())};
+}
+
+void Canvas::save(const std::filesystem::path& file) {
+  io::write_text(file, png());
 }
 
 } // namespace tessera::post

@@ -48,7 +48,9 @@ class Canvas {
   void rectangle(Pixel lower, Pixel upper, Colour fill);
   void polygon(const std::vector<Pixel>& corners, Colour fill);
 
-  /// Draws everything and writes the PNG; RunError when the disk refuses.
+  /// Draws everything: the bytes of a PNG file.
+  std::string png();
+  /// The same as a file; RunError when the disk refuses.
   void save(const std::filesystem::path& file);
 
  private:

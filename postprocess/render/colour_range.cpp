@@ -11,11 +11,14 @@ Range range_of(const std::vector<Body>& bodies, double outermost) {
   for (const Body& body : bodies)
     std::copy_if(body.values.begin(), body.values.end(), std::back_inserter(all),
                  [](double v) { return std::isfinite(v); });
+  const bool gaps = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) {
+    return std::any_of(body.values.begin(), body.values.end(), [](double v) { return std::isnan(v); });
+  });
   if (all.empty())
-    return {};
+    return {0, 0, 0, 0, gaps};
   std::sort(all.begin(), all.end());
   const auto tail = static_cast<std::size_t>(outermost * static_cast<double>(all.size()));
-  return {all.front(), all.back(), all[tail], all[all.size() - 1 - tail]};
+  return {all.front(), all.back(), all[tail], all[all.size() - 1 - tail], gaps};
 }
 
 ColourScale scale_of(const Drawing& drawing, const Quantity& quantity, const Range& range) {
@@ -25,9 +28,14 @@ ColourScale scale_of(const Drawing& drawing, const Quantity& quantity, const Ran
   ColourScale scale;
   scale.two_sided = quantity.palette == Palette::diverging;
   if (scale.two_sided) {
-    const double reach = std::max(std::abs(high - quantity.centre), std::abs(low - quantity.centre));
-    low = quantity.centre - reach;
-    high = quantity.centre + reach;
+    // The limits asked for count as values; a trace beyond the centre makes no second side.
+    constexpr double trace = 0.02;
+    const double below = quantity.centre - (std::isnan(drawing.minimum) ? low : drawing.minimum);
+    const double above = (std::isnan(drawing.maximum) ? high : drawing.maximum) - quantity.centre;
+    const double reach = std::max(std::abs(below), std::abs(above));
+    scale.two_sided = reach == 0 || (below > trace * reach && above > trace * reach);
+    low = !scale.two_sided && below <= trace * reach ? quantity.centre : quantity.centre - reach;
+    high = !scale.two_sided && above <= trace * reach ? quantity.centre : quantity.centre + reach;
   } else if (quantity.palette == Palette::from_zero && low > 0) {
     low = 0;
   }

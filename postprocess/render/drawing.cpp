@@ -1,16 +1,15 @@
 #include "postprocess/render/drawing.hpp"
 
-#include "postprocess/cell_surfaces.hpp"
+#include "io/atomic_file.hpp"
+#include "postprocess/animated_png.hpp"
 #include "postprocess/quantity.hpp"
-#include "postprocess/render/actors.hpp"
 #include "postprocess/render/body.hpp"
 #include "postprocess/render/canvas.hpp"
 #include "postprocess/render/cells.hpp"
 #include "postprocess/render/colour_range.hpp"
 #include "postprocess/render/legend.hpp"
+#include "postprocess/render/scene.hpp"
 #include "postprocess/render/view.hpp"
-
-#include <vtkRenderer.h>
 
 #include <fmt/format.h>
 
@@ -27,17 +26,7 @@ constexpr double margin = 40, title_height = 90, caption_height = 180, bar_colum
 constexpr double wanted_height = 900; ///< of a body's part of the picture
 constexpr double wanted_plane_height = 1300;
 constexpr double widest = 2600; ///< of all bodies together
-constexpr double least_width = 420, least_height = 300;
-
-/// "13.4 × 13.4 × 21.5 mm": what a box spans along x, y and z.
-std::string size_of(const Eigen::AlignedBox3f& box, bool plane) {
-  const Eigen::Vector3d span = box.sizes().cast<double>();
-  const Unit unit = readable_unit("m", span.maxCoeff());
-  std::string text = fmt::format("{} × {}", figure(span.x() * unit.factor), figure(span.y() * unit.factor));
-  if (!plane)
-    text += " × " + figure(span.z() * unit.factor);
-  return fmt::format("{} {}", text, unit.name);
-}
+constexpr double least_width = 420, least_strip = 170, least_height = 300;
 
 std::string caption_of(const Panel& panel) {
   const std::string time = std::isnan(panel.time) ? "" : "t = " + with_unit(panel.time, "s");
@@ -45,23 +34,6 @@ std::string caption_of(const Panel& panel) {
     return panel.label + time;
   return panel.label + ",  " + time;
 }
-
-/// What the particles' centres span.
-Eigen::AlignedBox3f span_of(const Body& body) {
-  Eigen::AlignedBox3f box;
-  for (const Point& p : body.points)
-    box.extend(p);
-  return box;
-}
-
-/// One panel as it is drawn.
-struct Scene {
-  Panel panel;
-  Body body;
-  CellSurfaces cells; ///< none: the particles are drawn
-  std::string second_line;
-  Eigen::AlignedBox3f extent; ///< in the view
-};
 
 /// All panels' bodies with the values the legend speaks of; a cloud's are relative to their mean.
 std::vector<Body> read_bodies(const Drawing& drawing) {
@@ -79,103 +51,73 @@ std::vector<Body> read_bodies(const Drawing& drawing) {
   return bodies;
 }
 
-/// `cells` are those of panel.cells.
-Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const CellMesh& cells,
-               const View& view) {
-  Scene scene{panel, std::move(body), {}, "", {}};
-  scene.second_line = size_of(drawing.cloud ? scene.body.reference : span_of(scene.body), scene.body.plane);
-  // Cells ask for the values of all particles.
-  std::vector<bool> kept(scene.body.points.size(), true);
-  Body half = scene.body;
-  if (!panel.clip.empty() && !half.plane) {
-    kept = keep_far_half(half, panel.clip, view.into);
-    if (drawing.cloud)
-      scene.second_line = fmt::format("{} of {} shown", half.points.size(), scene.body.points.size());
-  }
-  if (panel.cells.empty()) {
-    scene.body = std::move(half);
-  } else {
-    scene.cells = cell_surfaces(cells, kept, 1e-6 * scene.body.spacing);
-    for (const Vec3& x : scene.cells.points)
-      scene.extent.extend(view.seen(x.cast<float>()));
-  }
-  for (std::size_t i = 0; scene.cells.faces.empty() && i < scene.body.points.size(); ++i) {
-    const Point at = view.seen(scene.body.points[i]);
-    scene.extent.extend(Point(at.array() - scene.body.radii[i]));
-    scene.extent.extend(Point(at.array() + scene.body.radii[i]));
-  }
-  if (drawing.outline)
-    scene.extent.extend(extent(view, corners(scene.body.reference)));
-  // Room for edges and dots before the cells, and for flat ones to have a depth at all.
-  const auto air = static_cast<float>(0.5 * scene.body.spacing);
-  scene.extent.min().z() -= air;
-  scene.extent.max().z() += air;
-  return scene;
-}
-
-void fill(vtkRenderer& renderer, const Scene& scene, const Drawing& drawing, const View& view,
-          const ColourScale& scale, double metres_per_pixel) {
-  const Optics optics{depth_of(scene.extent), metres_per_pixel};
-  const auto spacing = static_cast<float>(scene.body.spacing);
-  if (scene.cells.faces.empty()) {
-    renderer.AddActor(spheres(scene.body, scale, optics));
-  } else {
-    renderer.AddActor(cell_faces(scene.cells, scene.body.values, scale));
-    // Neither lines nor dots may hide the colours of small cells.
-    const double cell = scene.body.spacing / metres_per_pixel;
-    renderer.AddActor(cell_edges(scene.cells, -0.01f * spacing * view.into,
-                                 static_cast<float>(std::clamp(cell / 14, 0.4, 1.4))));
-    if (scene.body.plane && cell >= 14)
-      renderer.AddActor(dots(scene.body, 0.2, optics));
-  }
-  if (drawing.outline)
-    renderer.AddActor(box_lines(scene.body.reference));
-}
-
 struct Layout {
   double panel_width = 0, body_height = 0; ///< pixels
   double metres_per_pixel = 0;
 };
 
 /// One length scale for all panels; the picture takes the shape of the bodies so that they fill it.
-Layout layout_of(const std::vector<Scene>& scenes, double tallest) {
+Layout layout_of(const std::vector<Scene>& scenes, const Drawing& drawing, bool plane) {
   double width = 0, height = 0;
   for (const Scene& scene : scenes) {
     width = std::max(width, static_cast<double>(scene.extent.sizes().x()));
     height = std::max(height, static_cast<double>(scene.extent.sizes().y()));
   }
-  const double widest_panel = std::min(1500.0, widest / static_cast<double>(scenes.size()));
+  const double columns = drawing.one_by_one ? 1 : static_cast<double>(scenes.size());
+  const double widest_panel = std::min(1500.0, widest / columns);
   Layout layout;
-  layout.metres_per_pixel = std::max(width / widest_panel, height / tallest);
-  layout.panel_width = std::max(width / layout.metres_per_pixel, least_width);
+  layout.metres_per_pixel =
+      std::max(width / widest_panel, height / (plane ? wanted_plane_height : wanted_height));
+  // Under the panels of a strip stands little more than the time.
+  layout.panel_width =
+      std::max(width / layout.metres_per_pixel, drawing.one_place && columns > 1 ? least_strip : least_width);
   layout.body_height = std::max(height / layout.metres_per_pixel, least_height);
   return layout;
 }
 
-} // namespace
-
-void draw_particles(const Drawing& asked) {
-  Drawing drawing = asked;
-  Quantity quantity = field_quantity(drawing.field);
-  if (drawing.cloud)
-    quantity = {quantity.label + " / mean", "", quantity.palette, 0};
-  std::vector<Body> bodies = read_bodies(drawing);
-  const bool plane = std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.plane; });
-  const View view = view_of(plane ? "top" : drawing.view);
+/// Leaves out what cannot be shown of plane bodies, and says in the title what all panels have in common.
+void settle_panels(Drawing& drawing, std::vector<Body>& bodies, bool plane) {
   const auto cut = [](const Panel& panel) { return !panel.clip.empty(); };
-  if (plane && !std::all_of(drawing.panels.begin(), drawing.panels.end(), cut)) {
+  const bool all_cut = std::all_of(drawing.panels.begin(), drawing.panels.end(), cut);
+  if (plane && !all_cut) {
     // There is no inside to be seen: the cut panel beside a whole one would repeat it.
     for (std::size_t i = drawing.panels.size(); i-- > 0;)
       if (cut(drawing.panels[i])) {
         drawing.panels.erase(drawing.panels.begin() + static_cast<std::ptrdiff_t>(i));
         bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(i));
       }
-  } else if (!plane && std::all_of(drawing.panels.begin(), drawing.panels.end(), cut)) {
-    drawing.title += ", cut in the middle";
+  } else if (!plane && all_cut) {
+    const Panel& panel = drawing.panels.front();
+    drawing.title += std::isnan(panel.clip_at)
+                         ? ", cut in the middle"
+                         : fmt::format(", cut at {} = {}", panel.clip, with_unit(panel.clip_at, "m"));
   }
+}
 
-  const Range range = range_of(bodies, drawing.cloud ? 0.01 : 0.001);
-  const ColourScale scale = scale_of(drawing, quantity, range);
+/// What the panels show, on one colour scale.
+struct Sheet {
+  Drawing drawing;
+  Quantity quantity;
+  View view;
+  Range range;
+  ColourScale scale;
+  std::vector<Scene> scenes;
+  Layout layout;
+};
+
+Sheet sheet_of(const Drawing& asked) {
+  Sheet sheet{asked, field_quantity(asked.field), {}, {}, {}, {}, {}};
+  Drawing& drawing = sheet.drawing;
+  if (drawing.cloud)
+    sheet.quantity = {sheet.quantity.label + " / mean", "", sheet.quantity.palette, 0};
+  std::vector<Body> bodies = read_bodies(drawing);
+  const bool plane = std::all_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.plane; });
+  sheet.view = view_of(plane ? "top" : drawing.view);
+  settle_panels(drawing, bodies, plane);
+  mask_unstressed(bodies);
+
+  sheet.range = range_of(bodies, drawing.cloud ? 0.01 : 0.001);
+  sheet.scale = scale_of(drawing, sheet.quantity, sheet.range);
   std::vector<CellMesh> cells(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (drawing.panels[i].cells.empty())
@@ -186,35 +128,74 @@ void draw_particles(const Drawing& asked) {
       for (const Vec3& x : cells[i].points)
         body.reference.extend(x.cast<float>());
   }
-  std::vector<Scene> scenes;
+  Shapes shapes;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    scenes.push_back(scene_of(drawing, drawing.panels[i], std::move(bodies[i]), cells[i], view));
-  const Layout layout = layout_of(scenes, plane ? wanted_plane_height : wanted_height);
-  const auto count = static_cast<double>(scenes.size());
-  const double bodies_width = count * layout.panel_width + (count - 1) * gap;
+    sheet.scenes.push_back(
+        scene_of(drawing, drawing.panels[i], std::move(bodies[i]), cells[i], sheet.view, shapes));
+  if (drawing.one_place) {
+    Eigen::AlignedBox3f all;
+    for (const Scene& scene : sheet.scenes)
+      all.extend(scene.extent);
+    for (Scene& scene : sheet.scenes)
+      scene.extent = all;
+  }
+  sheet.layout = layout_of(sheet.scenes, drawing, plane);
+  return sheet;
+}
+
+/// `count` of the sheet's panels from `first` on, side by side: the bytes of a PNG file.
+std::string png_of(const Sheet& sheet, std::size_t first, std::size_t count) {
+  const Layout& layout = sheet.layout;
+  const auto columns = static_cast<double>(count);
+  const double bodies_width = columns * layout.panel_width + (columns - 1) * gap;
   Canvas canvas(static_cast<int>(2 * margin + bodies_width + bar_column),
                 static_cast<int>(title_height + layout.body_height + caption_height));
-
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
+  const bool strip = sheet.drawing.one_place && count > 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Scene& scene = sheet.scenes[first + i];
     const double left = margin + static_cast<double>(i) * (layout.panel_width + gap);
     vtkRenderer& renderer = canvas.scene({left, caption_height},
                                          {left + layout.panel_width, caption_height + layout.body_height});
-    fill(renderer, scenes[i], drawing, view, scale, layout.metres_per_pixel);
-    look_at(renderer, view, scenes[i].extent, layout.body_height * layout.metres_per_pixel);
+    fill(renderer, scene, sheet.view, sheet.scale, layout.metres_per_pixel);
+    look_at(renderer, sheet.view, scene.extent, layout.body_height * layout.metres_per_pixel);
     const double centre = left + layout.panel_width / 2;
-    canvas.text({centre, caption_height - 40}, caption_of(scenes[i].panel),
+    Panel captioned = scene.panel;
+    if (strip)
+      captioned.label.clear();
+    canvas.text({centre, caption_height - 40}, caption_of(captioned),
                 {.size = 28, .anchor = Anchor::centre, .width = layout.panel_width});
-    canvas.text({centre, caption_height - 80}, scenes[i].second_line,
-                {.size = 22, .anchor = Anchor::centre, .width = layout.panel_width});
+    if (!strip)
+      canvas.text({centre, caption_height - 80}, scene.second_line,
+                  {.size = 22, .anchor = Anchor::centre, .width = layout.panel_width});
   }
-  canvas.text({canvas.width() / 2.0, canvas.height() - title_height / 2}, drawing.title,
+  if (strip)
+    canvas.text({margin + bodies_width / 2, caption_height - 90}, sheet.scenes[first].panel.label,
+                {.size = 28, .anchor = Anchor::centre, .width = bodies_width});
+  canvas.text({canvas.width() / 2.0, canvas.height() - title_height / 2}, sheet.drawing.title,
               {.size = 34, .anchor = Anchor::centre, .bold = true, .width = canvas.width() - 2 * margin});
   const double column = canvas.width() - bar_column;
-  draw_bar(canvas, scale, quantity, range, {column, caption_height + 0.08 * layout.body_height},
-           0.84 * layout.body_height, bar_column);
+  // Below the bar there is room for the extremes, above the scale of lengths.
+  const double below = std::max(0.08 * layout.body_height, 70.0), above = 0.08 * layout.body_height;
+  draw_bar(canvas, sheet.scale, sheet.quantity, sheet.range, {column, caption_height + below},
+           layout.body_height - below - above, bar_column);
   draw_length(canvas, layout.metres_per_pixel, {column, caption_height - 24});
-  draw_axes(canvas, view, {column + 70, 44});
-  canvas.save(drawing.file);
+  draw_axes(canvas, sheet.view, {column + 70, 44});
+  return canvas.png();
+}
+
+} // namespace
+
+void draw_body(const Drawing& drawing) {
+  const Sheet sheet = sheet_of(drawing);
+  if (!drawing.one_by_one) {
+    io::write_text(drawing.file, png_of(sheet, 0, sheet.scenes.size()));
+    return;
+  }
+  constexpr double seconds = 0.12; // a frame
+  std::vector<std::string> frames;
+  for (std::size_t i = 0; i < sheet.scenes.size(); ++i)
+    frames.push_back(png_of(sheet, i, 1));
+  io::write_text(drawing.file, animated_png(frames, seconds));
 }
 
 } // namespace tessera::post

@@ -1,4 +1,4 @@
-/// Particles as shaded spheres, with colour bar, length scale and captions.
+/// Bodies coloured by a field, with colour bar, length scale and captions.
 #pragma once
 
 #include "postprocess/render_job.hpp"
@@ -7,6 +7,6 @@ namespace tessera::post {
 
 /// Writes drawing.file. InputError where a panel's file or the field is wrong; RunError when the disk
 /// refuses.
-void draw_particles(const Drawing& drawing);
+void draw_body(const Drawing& drawing);
 
 } // namespace tessera::post

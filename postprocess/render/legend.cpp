@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera::post {
 
@@ -34,7 +35,12 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
   const std::string extremes = range.low == range.high
                                    ? fmt::format("{} everywhere", extreme(range.low))
                                    : fmt::format("from {} to {}", extreme(range.low), extreme(range.high));
-  canvas.text({left, low - 40}, extremes, {.size = 21, .width = width - 20});
+  canvas.text({left, low - 32}, extremes, {.size = 21, .width = width - 20});
+  if (range.gaps) {
+    canvas.rectangle({left, low - 67}, {left + 18, low - 51},
+                     scale(std::numeric_limits<double>::quiet_NaN()));
+    canvas.text({left + 26, low - 59}, "too little stress", {.size = 21, .width = width - 46});
+  }
 }
 
 void draw_axes(Canvas& canvas, const View& view, Pixel at) {

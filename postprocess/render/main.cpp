@@ -25,8 +25,6 @@ namespace {
 
 using namespace tessera;
 
-constexpr unsigned time_limit = 330; ///< s: ends with the program that asked, should that one be killed
-
 std::string content(const char* file) {
   std::ifstream in(file, std::ios::binary);
   require(in.good(), "cannot read the job", file, "");
@@ -56,10 +54,11 @@ int main(int argc, char** argv) try {
   }
   require(std::getenv("DISPLAY") != nullptr, "there is no X server", "",
           "start it as 'xvfb-run -a tessera-render JOB'");
-  ::alarm(time_limit);
   const post::RenderJob job = post::render_job_from_json(content(argv[1]));
+  // Ends when the program that asked would have ended it, should that one be killed.
+  ::alarm(static_cast<unsigned>(post::time_limit(job)) + 30);
   for (const post::Drawing& drawing : job.drawings)
-    attempt(drawing.file, [&] { post::draw_particles(drawing); });
+    attempt(drawing.file, [&] { post::draw_body(drawing); });
   for (const post::Plot& plot : job.plots)
     attempt(plot.file, [&] { post::draw_plot(plot); });
   // Everything is written; graphics drivers are known to leak or crash on the way out.

@@ -9,6 +9,7 @@
 #include "preprocess/cloud/renumber.hpp"
 #include "preprocess/cloud/sets.hpp"
 #include "preprocess/cloud/visibility.hpp"
+#include "preprocess/geometry/body_mesh.hpp"
 #include "preprocess/voronoi/voro.hpp"
 
 #include <fmt/format.h>
@@ -251,6 +252,7 @@ Prepared prepare(const Domain& domain, const ParticleRequest& request, Progress&
     quality.sets.emplace_back(set.name, static_cast<std::int64_t>(set.particles.size()));
   watch.lap("sets");
   cloud.validate("prepared cloud");
+  result.body = body_mesh(domain);
   return result;
 }
 

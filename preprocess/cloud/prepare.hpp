@@ -1,6 +1,7 @@
 /// From a Domain to the solver's particles: the whole of preprocessing after import.
 #pragma once
 
+#include "core/body_mesh.hpp"
 #include "core/cell_mesh.hpp"
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
@@ -64,6 +65,7 @@ struct ParticleRequest {
 struct Prepared {
   ParticleCloud cloud;
   Quality quality;
+  BodyMesh body;  ///< what was filled
   CellMesh cells; ///< empty unless keep_cells
 };
 

@@ -120,6 +120,28 @@ void Polyline::refuse_crossings(const std::string& where) const {
     }
 }
 
+std::vector<Vec<2>> Polyline::drawn(double reach) const {
+  constexpr double step = 5 * M_PI / 180;
+  std::vector<Point> points;
+  auto arc = arcs_.begin();
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Segment& segment = segments_[i];
+    const bool first = i == 0, last = i + 1 == segments_.size();
+    if (first)
+      points.push_back(segment.origin - reach * segment.along);
+    points.push_back(segment.origin +
+                     (last ? (first ? 0 : segment.from) + reach : segment.to) * segment.along);
+    if (last || segments_[i + 1].from == 0)
+      continue;
+    const double turn = std::atan2(cross(arc->first, arc->last), arc->first.dot(arc->last));
+    const int steps = static_cast<int>(std::ceil(std::abs(turn) / step));
+    for (int k = 1; k <= steps; ++k)
+      points.push_back(arc->centre + arc->radius * (Eigen::Rotation2Dd(turn * k / steps) * arc->first));
+    ++arc;
+  }
+  return points;
+}
+
 RigidShape::Gap Polyline::gap(const Vec3& x) const {
   const Point at = x.head<2>();
   double best = std::numeric_limits<double>::infinity(), distance = best;

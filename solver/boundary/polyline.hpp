@@ -21,6 +21,9 @@ class Polyline final : public RigidShape {
 
   Gap gap(const Vec3& x) const override;
 
+  /// Points along the line, arcs in steps of 5 degrees or less, both ends prolonged by `reach` (m).
+  std::vector<Vec<2>> drawn(double reach) const;
+
  private:
   /// origin + t along for t in [from, to].
   struct Segment {

@@ -45,4 +45,10 @@ template <int D>
 Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<const double> V,
                         const HiddenPairs& hidden = {}, const Kernel<D>& kernel = {});
 
+/// The same among `candidates`, ascending: what is not listed is not there.
+template <int D>
+Sampling build_sampling(const Vec3& point, std::span<const Vec3> X, std::span<const double> V,
+                        std::span<const std::int32_t> candidates, const HiddenPairs& hidden,
+                        const Kernel<D>& kernel = {});
+
 } // namespace tessera::solver

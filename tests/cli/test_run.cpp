@@ -95,6 +95,47 @@ TEST(Run, BlowUpKeepsTheLastGoodFrame) {
   EXPECT_GE(io::read_series(place / "out").size(), 1U);
 }
 
+TEST(Run, PicturesOfEveryStyle) {
+  const Workplace place;
+  write_small_case(place);
+  place.write("case.toml", small_case + R"(
+[[output.picture]]
+name = "strip"
+field = "PlasticStrain"
+frames = 3
+outline = true
+
+[[output.picture]]
+name = "skin"
+field = "VonMises"
+style = "skin"
+view = "iso"
+clip = "y"
+clip_at = 0.004
+outline = true
+
+[[output.picture]]
+name = "moving"
+field = "Velocity"
+frames = [0, 1]
+animation = true
+)");
+  Workplace::Surroundings screen;
+  screen.pictures = true;
+  const Result run = place.tessera({"run", "case.toml", "-o", "a"}, screen);
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(fs::exists(place / "a" / "body.vtu"));
+  if (run.err.find("xvfb-run is not installed") != std::string::npos)
+    GTEST_SKIP() << "no xvfb-run on this machine";
+  EXPECT_NE(run.err.find("moving.png: the run's frames go from"), std::string::npos) << run.err;
+  for (const char* name : {"strip.png", "skin.png", "moving.png"})
+    EXPECT_GT(place.read(std::string("a/") + name).size(), 10'000U) << name << "\n" << run.err;
+  EXPECT_NE(place.read("a/moving.png").find("acTL"), std::string::npos);
+  const Result refused = place.tessera({"post", "a", "--set", "output.picture.1.clip_at=5"}, screen);
+  EXPECT_NE(refused.err.find("no skin.png: nothing of the body lies beyond"), std::string::npos)
+      << refused.err;
+}
+
 TEST(Run, PicturesAndComparison) {
   const Workplace place;
   write_small_case(place);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -60,6 +61,102 @@ TEST(Picture, SeveralRunsStandSideBySide) {
   EXPECT_EQ(notes.out.str(), "");
   ASSERT_EQ(one.size() + two.size(), 2u);
   EXPECT_GT(Seen(two[0]).width, Seen(one[0]).width + 300);
+}
+
+TEST(Picture, MomentsStandSideBySideOrMove) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture one, strip, moving;
+  one.name = "one";
+  strip.name = "strip";
+  strip.frames = 5; // there are two
+  moving.name = "moving";
+  moving.animation = true;
+  std::vector<Picture> pictures{one, strip, moving};
+  for (Picture& picture : pictures)
+    picture.field = "PlasticStrain";
+  Notes notes;
+  const std::vector<Tool> wall{{Vec3::Zero(), Vec3::UnitZ(), {}, Vec3::Zero()}};
+  const auto files = draw(pictures, {folder.path()}, {"bar"}, folder.path(), notes.progress, wall);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_TRUE(Seen(files[0]).colours.contains({222, 222, 222})) << "the wall";
+  EXPECT_GT(Seen(files[1]).width, Seen(files[0]).width);
+  const std::string bytes = test::content(files[2]);
+  EXPECT_NE(bytes.find("acTL"), std::string::npos);
+  EXPECT_NE(bytes.find("fdAT"), std::string::npos);
+  EXPECT_GT(Seen(files[2]).colours.size(), 500u) << "a still for whom it does not move";
+}
+
+TEST(Picture, TimesOutsideTheRunAreNoted) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture late, early, inside;
+  late.field = early.field = inside.field = "PlasticStrain";
+  late.name = "late";
+  late.frame = "1e-3";
+  early.name = "early";
+  early.times = {-1e-6, 80e-6};
+  inside.name = "inside";
+  inside.frame = "5e-05";
+  Notes notes;
+  EXPECT_EQ(draw({late, early, inside}, {folder.path()}, {}, folder.path(), notes.progress).size(), 3u);
+  const std::string text = notes.out.str();
+  EXPECT_NE(
+      text.find("late.png: the run's frames go from 0 s to 80 µs: the last one is drawn in place of 1 ms"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("early.png"), std::string::npos) << text;
+  EXPECT_EQ(text.find("inside.png"), std::string::npos) << text;
+}
+
+bool has_yellow(const Seen& seen) {
+  return std::any_of(seen.colours.begin(), seen.colours.end(),
+                     [](const auto& c) { return c[0] > 245 && c[1] > 220 && c[2] < 60; });
+}
+
+TEST(Picture, AFieldWithOneSideHasAOneSidedScale) {
+  const TemporaryFolder folder;
+  std::vector<Vec3> X;
+  std::vector<double> tension, both, triaxiality, von_mises;
+  for (int i = 0; i < 20; ++i) {
+    X.emplace_back(0.001 * (i % 5), 0.001 * (i / 5), 0);
+    tension.push_back(1e6 * i);
+    both.push_back(1e6 * (i - 10));
+    triaxiality.push_back(i < 5 ? 1e9 : 0.3); // without stress anything
+    von_mises.push_back(i < 5 ? 0 : 1e8);
+  }
+  io::FrameSeries(folder.path())
+      .write({0,
+              0,
+              X,
+              {{"Pressure", 1, tension},
+               {"PrincipalStress1", 1, both},
+               {"Triaxiality", 1, triaxiality},
+               {"VonMises", 1, von_mises}}});
+  std::vector<Picture> pictures(3);
+  for (std::size_t k = 0; const char* field : {"Pressure", "PrincipalStress1", "Triaxiality"}) {
+    pictures[k].name = field;
+    pictures[k++].field = field;
+  }
+  Notes notes;
+  const auto files = draw(pictures, {folder.path()}, {}, folder.path(), notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 3u);
+  EXPECT_TRUE(has_yellow(Seen(files[0])));
+  EXPECT_FALSE(has_yellow(Seen(files[1])));
+  EXPECT_TRUE(Seen(files[2]).colours.contains({150, 150, 150})) << "grey where there is no stress";
+}
+
+TEST(Picture, WithoutTheBodysShapeASkinIsParticles) {
+  const TemporaryFolder folder;
+  test::store_run(folder.path(), 7e-3);
+  Picture skin;
+  skin.field = "PlasticStrain";
+  skin.skin = true;
+  Notes notes;
+  ASSERT_EQ(draw({skin}, {folder.path()}, {}, folder.path(), notes.progress).size(), 1u);
+  EXPECT_NE(notes.out.str().find("there is no body.vtu"), std::string::npos) << notes.out.str();
 }
 
 TEST(Picture, CloudIsDrawnFromItsFile) {

@@ -22,7 +22,10 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   drawing.maximum = 1.0 / 3;
   drawing.outline = true;
   drawing.cloud = true;
-  drawing.panels = {{"f.vtu", "label", NAN, 0.1, "y", "c.vtu"}};
+  drawing.skin = true;
+  drawing.one_by_one = true;
+  drawing.tools = {{{1, 2, 3}, {0, 1, 0}, {{4, 5, 0}, {6, 7, 0}}, {0, 0, -1}}};
+  drawing.panels = {{"f.vtu", "label", NAN, 0.1, "y", "c.vtu", "b.vtu", "p.vtp", 0.25}};
   job.drawings = {drawing};
   job.plots = {
       {"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true, 3, 2}}}}, true}};
@@ -36,6 +39,16 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   EXPECT_EQ(d.maximum, 1.0 / 3);
   EXPECT_TRUE(d.outline);
   EXPECT_TRUE(d.cloud);
+  EXPECT_TRUE(d.skin);
+  EXPECT_FALSE(d.one_place);
+  EXPECT_TRUE(d.one_by_one);
+  EXPECT_EQ(d.tools.at(0).point, Vec3(1, 2, 3));
+  EXPECT_EQ(d.tools.at(0).normal, Vec3(0, 1, 0));
+  EXPECT_EQ(d.tools.at(0).line.at(1), Vec3(6, 7, 0));
+  EXPECT_EQ(d.tools.at(0).velocity, Vec3(0, 0, -1));
+  EXPECT_EQ(d.panels.at(0).body, "b.vtu");
+  EXPECT_EQ(d.panels.at(0).cloud, "p.vtp");
+  EXPECT_EQ(d.panels.at(0).clip_at, 0.25);
   EXPECT_EQ(d.panels.at(0).cells, "c.vtu");
   EXPECT_TRUE(std::isnan(d.panels.at(0).time));
   EXPECT_EQ(d.panels.at(0).spacing, 0.1);

@@ -297,3 +297,15 @@ TEST(Channel, AParticleGlidesThroughTheDieAlongItsRoundedCorners) {
   EXPECT_LT(fine, 3.5 * speed * 1e-6 / radius);
   EXPECT_NEAR(fine / coarse, 0.5, 0.02);
 }
+
+TEST(Polyline, IsDrawnAlongItself) {
+  const Polyline line({{0, 0}, {2, 0}, {2, 3}, {5, 3}}, {0.5, 0});
+  const std::vector<Point> points = line.drawn(10);
+  EXPECT_NEAR((points.front() - Point(-10, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((points.back() - Point(12, 3)).norm(), 0, 1e-12);
+  for (const Point& x : points)
+    EXPECT_NEAR(distance(line, x[0], x[1]), 0, 1e-12);
+  EXPECT_NEAR((points[1] - Point(1.5, 0)).norm(), 0, 1e-12) << "where the arc begins";
+  EXPECT_NEAR((points[points.size() - 2] - Point(2, 3)).norm(), 0, 1e-12) << "a sharp corner";
+  EXPECT_EQ(Polyline({{0, 0}, {1, 0}}, {}).drawn(2).size(), 2u);
+}
