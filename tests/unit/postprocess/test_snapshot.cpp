@@ -36,6 +36,7 @@ Snapshot sheared() {
         stress.values.push_back(c + X[0]);
     }
   out.cloud.dimension = 2;
+  out.cloud.spacing = 1e-3;
   out.frame.fields = {u, of_X, of_x, stress};
   return out;
 }
