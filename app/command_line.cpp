@@ -141,6 +141,16 @@ struct Grammar {
                     "Draw the fields along a line, two points in m: x0,y0,z0:x1,y1,z1 (repeatable)")
         ->type_name("FROM:TO")
         ->allow_extra_args(false);
+    command.add_option("--times", o.times, "Pictures at several times in s: a row a run, a column a time")
+        ->type_name("T1,T2,...")
+        ->delimiter(',');
+    command.add_option("--style", o.style, "particles (unless given) or skin: the bodies as smooth pieces")
+        ->type_name("STYLE")
+        ->check(CLI::IsMember({"particles", "skin"}));
+    command.add_flag("--outline", o.outline, "Draw the undeformed bodies as lines");
+    command.add_option("--magnify", o.magnify, "Times as large displacements are drawn (1)")
+        ->type_name("M")
+        ->check(CLI::PositiveNumber);
     command
         .add_option("--history", o.columns,
                     "Draw a column of history.csv of all runs over each other, as kinetic_J (repeatable)")

@@ -19,6 +19,10 @@ struct Options {
   std::string view = "front", clip = "y"; ///< compare: as a picture's; "none" does not clip
   std::vector<std::string> sections;      ///< compare: "x0,y0,z0:x1,y1,z1", m
   std::vector<std::string> columns;       ///< compare: of history.csv
+  std::vector<double> times;              ///< compare: columns of the pictures, s
+  std::string style = "particles";        ///< compare: particles or skin
+  bool outline = false;                   ///< compare: the undeformed bodies as lines
+  double magnify = 1;                     ///< compare: times as large displacements are drawn
   bool reference = false;                 ///< compare: sections of the body as it was
   bool pictures = true;                   ///< run: draw and write the report
   bool retry = false;                     ///< study: also what failed before

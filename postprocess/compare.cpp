@@ -198,6 +198,10 @@ std::vector<fs::path> draw_fields(const std::vector<fs::path>& folders, const st
     picture.view = sight.view;
     picture.clip = sight.clip;
     picture.frame = sight.time;
+    picture.times = sight.times;
+    picture.skin = sight.skin;
+    picture.outline = sight.outline;
+    picture.magnify = sight.magnify;
   }
   return draw(pictures, folders, names, output, progress);
 }

@@ -14,7 +14,10 @@ namespace tessera::post {
 struct Sight {
   std::vector<std::string> fields; ///< none: PlasticStrain where a run flows, and VonMises
   std::string time = "last", view = "front", clip = "y"; ///< as in Picture
-  std::vector<std::string> columns;                      ///< of history.csv, to be drawn over each other
+  std::vector<double> times; ///< of pictures with a row a run and a column a time, s; none: at `time` only
+  bool skin = false, outline = false; ///< as in Picture
+  double magnify = 1;                 ///< as in Picture
+  std::vector<std::string> columns;   ///< of history.csv, to be drawn over each other
   std::vector<Section> sections;
   Configuration configuration = Configuration::current; ///< of the sections
 };

@@ -48,13 +48,10 @@ const io::StoredFrame& frame_at(double time, const Picture& picture, const Run& 
   return nearest;
 }
 
-/// Which frames of a run a picture shows, in order of time, none twice.
+/// Which frames of a run a picture shows, in order of time.
 std::vector<io::StoredFrame> frames_of(const Picture& picture, const Run& run, Progress& progress) {
   std::vector<io::StoredFrame> chosen;
-  const auto add = [&](const io::StoredFrame& frame) {
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const auto& one) { return one.file == frame.file; }))
-      chosen.push_back(frame);
-  };
+  const auto add = [&](const io::StoredFrame& frame) { chosen.push_back(frame); };
   double time = 0;
   for (const double asked : picture.times)
     add(frame_at(asked, picture, run, progress));
@@ -71,6 +68,15 @@ std::vector<io::StoredFrame> frames_of(const Picture& picture, const Run& run, P
   return chosen;
 }
 
+/// Leaves out moments at which all runs show the frame they showed before.
+void drop_repeated(std::vector<std::vector<io::StoredFrame>>& rows) {
+  for (std::size_t k = rows.front().size(); k-- > 1;)
+    if (std::all_of(rows.begin(), rows.end(),
+                    [&](const auto& row) { return row[k].file == row[k - 1].file; }))
+      for (auto& row : rows)
+        row.erase(row.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
 Drawing drawing_of(const Picture& picture, const std::vector<Run>& runs, const std::vector<Tool>& tools,
                    const fs::path& output, Progress& progress) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -85,16 +91,27 @@ Drawing drawing_of(const Picture& picture, const std::vector<Run>& runs, const s
   drawing.skin = picture.skin;
   if (picture.tools)
     drawing.tools = tools;
-  drawing.one_place = runs.size() == 1;
+  std::vector<std::vector<io::StoredFrame>> rows;
+  for (const Run& run : runs)
+    rows.push_back(frames_of(picture, run, progress));
+  if (!picture.animation)
+    drop_repeated(rows);
+  const std::size_t moments = rows.front().size();
+  drawing.one_place = runs.size() == 1 || moments > 1;
   drawing.one_by_one = picture.animation;
-  for (const Run& run : runs) {
+  if (moments > 1 && !picture.animation)
+    drawing.columns = static_cast<int>(moments);
+  if (picture.magnify != 1)
+    drawing.title += fmt::format(", displacements {:g} times as large", picture.magnify);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Run& run = runs[r];
     const std::string body = run.file("body.vtu"), cloud = run.file("cloud.vtp");
     if (picture.skin && (body.empty() || cloud.empty()))
       progress.note(fmt::format("{}.png: particles in place of a skin: there is no {} in {}", picture.name,
                                 body.empty() ? "body.vtu" : "cloud.vtp", run.folder.string()));
-    for (const io::StoredFrame& frame : frames_of(picture, run, progress))
+    for (const io::StoredFrame& frame : rows[r])
       drawing.panels.push_back({fs::absolute(frame.file).string(), run.label, frame.time, 0, picture.clip, "",
-                                body, cloud, picture.clip_at.value_or(none)});
+                                body, cloud, picture.clip_at.value_or(none), picture.magnify});
   }
   return drawing;
 }

@@ -30,10 +30,12 @@ struct Picture {
   bool skin = false;                      ///< as one smooth piece in place of particles
   bool outline = false;                   ///< the undeformed body as lines
   bool tools = true;                      ///< the rigid tools about the body
+  double magnify = 1;                     ///< times as large displacements are drawn
 };
 
 /// Renders each picture of each series folder in one child process under xvfb-run. Several `folders`: drawn
-/// side by side on one colour scale with `labels` under them. `tools` are about the bodies. Returns the files
+/// side by side on one colour scale with `labels` under them; with several moments a row each, one of these a
+/// column. `tools` are about the bodies. Returns the files
 /// written (in `output`). Where xvfb-run or the renderer is missing or fails, notes why on `progress` and
 /// returns no files: a picture never fails a run.
 std::vector<std::filesystem::path> draw(const std::vector<Picture>& pictures,

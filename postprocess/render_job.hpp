@@ -27,6 +27,7 @@ struct Panel {
   std::string body{};  ///< .vtu with the shape of the undeformed body; may be empty
   std::string cloud{}; ///< .vtp with the particles before they moved, wanted for a skin
   double clip_at = std::numeric_limits<double>::quiet_NaN(); ///< where, m; NaN: in the middle of the body
+  double magnify = 1;                                        ///< times as large displacements are drawn
 };
 
 /// A body coloured by a field, panels side by side on one colour scale and one length scale.
@@ -41,6 +42,7 @@ struct Drawing {
   bool skin = false;       ///< as one smooth piece in place of particles, where body and cloud are known
   bool one_place = false;  ///< panels show the same part of space: moments of one run
   bool one_by_one = false; ///< panels are the frames of an animation
+  int columns = 0;         ///< panels in a row; 0: all of them. Each row is a strip of one run's moments
   /// Particles before a run: values over their mean, each sphere as large as its distance to others (on a
   /// lattice half the panel's spacing), and a second line of caption that counts what is seen of a cut body.
   bool cloud = false;

@@ -50,7 +50,8 @@ Tool tool_of(const json& value) {
 json of(const Panel& panel) {
   return {{"file", panel.file},       {"label", panel.label}, {"time", panel.time},
           {"spacing", panel.spacing}, {"clip", panel.clip},   {"cells", panel.cells},
-          {"body", panel.body},       {"cloud", panel.cloud}, {"clip_at", panel.clip_at}};
+          {"body", panel.body},       {"cloud", panel.cloud}, {"clip_at", panel.clip_at},
+          {"magnify", panel.magnify}};
 }
 
 json of(const Drawing& drawing) {
@@ -69,6 +70,7 @@ json of(const Drawing& drawing) {
           {"skin", drawing.skin},
           {"one_place", drawing.one_place},
           {"one_by_one", drawing.one_by_one},
+          {"columns", drawing.columns},
           {"cloud", drawing.cloud},
           {"tools", tools},
           {"panels", panels}};
@@ -100,6 +102,7 @@ Drawing drawing_of(const json& value) {
                   value.at("skin"),
                   value.at("one_place"),
                   value.at("one_by_one"),
+                  value.at("columns"),
                   value.at("cloud"),
                   {},
                   {}};
@@ -108,7 +111,7 @@ Drawing drawing_of(const json& value) {
   for (const json& panel : value.at("panels"))
     drawing.panels.push_back({panel.at("file"), panel.at("label"), number(panel.at("time")),
                               panel.at("spacing"), panel.at("clip"), panel.at("cells"), panel.at("body"),
-                              panel.at("cloud"), number(panel.at("clip_at"))});
+                              panel.at("cloud"), number(panel.at("clip_at")), panel.at("magnify")});
   return drawing;
 }
 

@@ -156,6 +156,7 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
   picture.maximum = table.optional_number("maximum");
   picture.outline = table.boolean_or("outline", picture.outline);
   picture.tools = table.boolean_or("tools", picture.tools);
+  picture.magnify = table.number_or("magnify", picture.magnify, positive);
   table.finish();
 
   const bool word = picture.frame == "last" || picture.frame == "first";
@@ -173,7 +174,7 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
   if (picture.minimum && picture.maximum && *picture.minimum >= *picture.maximum)
     table.refuse("maximum", "a picture's maximum is not above its minimum",
                  "leave both out for the field's own range");
-  for (const char* taken : {"cloud", "energies", "probes"})
+  for (const char* taken : {"cloud", "cloud_histograms", "energies", "forces", "momenta", "probes"})
     if (picture.name == taken)
       table.refuse("name", fmt::format("a picture may not be called '{}'", taken),
                    "that file is written anyway");

@@ -20,13 +20,18 @@ void compare(const Options& options) {
             folder.string(), "name the folders runs wrote to, for example runs/taylor_bar");
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path("runs") / "compare" : options.output;
-  post::Sight sight{options.fields,
-                    options.time,
-                    options.view,
-                    options.clip == "none" ? "" : options.clip,
-                    options.columns,
-                    {},
-                    options.reference ? post::Configuration::reference : post::Configuration::current};
+  post::Sight sight;
+  sight.fields = options.fields;
+  sight.time = options.time;
+  sight.times = options.times;
+  sight.view = options.view;
+  sight.clip = options.clip == "none" ? "" : options.clip;
+  sight.skin = options.style == "skin";
+  sight.outline = options.outline;
+  sight.magnify = options.magnify;
+  sight.columns = options.columns;
+  if (options.reference)
+    sight.configuration = post::Configuration::reference;
   for (const std::string& section : options.sections)
     sight.sections.push_back(post::section_from(section));
   const RunFolder folder(output); // gone again where the runs turn out not to hold what is asked for

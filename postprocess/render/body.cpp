@@ -145,9 +145,9 @@ Body read_body(const Panel& panel, const std::string& field) {
       displacement->GetTuple(i, u.data());
     require(x.allFinite(), fmt::format("particle {} is nowhere", i), panel.file,
             "the run failed before this frame");
-    body.points.push_back(x.cast<float>());
-    body.displacement.push_back(u);
     reference.push_back((x - u).cast<float>());
+    body.displacement.push_back(panel.magnify * u);
+    body.points.push_back((x - u + body.displacement.back()).cast<float>());
     body.reference.extend(reference.back());
   }
   body.plane = body.reference.sizes().z() == 0;

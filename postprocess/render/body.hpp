@@ -14,10 +14,10 @@ namespace tessera::post {
 using Point = Eigen::Vector3f;
 
 struct Body {
-  std::vector<Point> points;      ///< m, where the particles are at that time
+  std::vector<Point> points;      ///< m, where the particles are at that time, displacements magnified
   std::vector<double> values;     ///< SI
   std::vector<float> radii;       ///< of the spheres that stand for the particles, m
-  std::vector<Vec3> displacement; ///< m
+  std::vector<Vec3> displacement; ///< m, magnified
   /// How much stress there is, Pa, for fields that mean nothing without; empty with others.
   std::vector<double> stress;
   Eigen::AlignedBox3f reference; ///< of the undeformed body

@@ -56,6 +56,11 @@ struct Layout {
   double metres_per_pixel = 0;
 };
 
+/// Panels in a row of the picture.
+std::size_t columns_of(const Drawing& drawing, std::size_t panels) {
+  return drawing.one_by_one ? 1 : drawing.columns > 0 ? static_cast<std::size_t>(drawing.columns) : panels;
+}
+
 /// One length scale for all panels; the picture takes the shape of the bodies so that they fill it.
 Layout layout_of(const std::vector<Scene>& scenes, const Drawing& drawing, bool plane) {
   double width = 0, height = 0;
@@ -63,11 +68,13 @@ Layout layout_of(const std::vector<Scene>& scenes, const Drawing& drawing, bool 
     width = std::max(width, static_cast<double>(scene.extent.sizes().x()));
     height = std::max(height, static_cast<double>(scene.extent.sizes().y()));
   }
-  const double columns = drawing.one_by_one ? 1 : static_cast<double>(scenes.size());
+  const auto columns = static_cast<double>(columns_of(drawing, scenes.size()));
+  const double rows = drawing.one_by_one ? 1 : static_cast<double>(scenes.size()) / columns;
   const double widest_panel = std::min(1500.0, widest / columns);
+  // Many rows are lower, yet not in proportion.
+  const double highest = (plane ? wanted_plane_height : wanted_height) / std::sqrt(rows);
   Layout layout;
-  layout.metres_per_pixel =
-      std::max(width / widest_panel, height / (plane ? wanted_plane_height : wanted_height));
+  layout.metres_per_pixel = std::max(width / widest_panel, height / highest);
   // Under the panels of a strip stands little more than the time.
   layout.panel_width =
       std::max(width / layout.metres_per_pixel, drawing.one_place && columns > 1 ? least_strip : least_width);
@@ -143,41 +150,45 @@ Sheet sheet_of(const Drawing& asked) {
   return sheet;
 }
 
-/// `count` of the sheet's panels from `first` on, side by side: the bytes of a PNG file.
+/// `count` of the sheet's panels from `first` on, row by row: the bytes of a PNG file.
 std::string png_of(const Sheet& sheet, std::size_t first, std::size_t count) {
   const Layout& layout = sheet.layout;
-  const auto columns = static_cast<double>(count);
-  const double bodies_width = columns * layout.panel_width + (columns - 1) * gap;
-  Canvas canvas(static_cast<int>(2 * margin + bodies_width + bar_column),
-                static_cast<int>(title_height + layout.body_height + caption_height));
-  const bool strip = sheet.drawing.one_place && count > 1;
+  const std::size_t columns = columns_of(sheet.drawing, count), rows = (count + columns - 1) / columns;
+  const double row_width =
+      static_cast<double>(columns) * layout.panel_width + static_cast<double>(columns - 1) * gap;
+  const double row_height = layout.body_height + caption_height;
+  Canvas canvas(static_cast<int>(2 * margin + row_width + bar_column),
+                static_cast<int>(title_height + static_cast<double>(rows) * row_height));
+  const bool strips = sheet.drawing.one_place && columns > 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Scene& scene = sheet.scenes[first + i];
-    const double left = margin + static_cast<double>(i) * (layout.panel_width + gap);
-    vtkRenderer& renderer = canvas.scene({left, caption_height},
-                                         {left + layout.panel_width, caption_height + layout.body_height});
+    const double left = margin + static_cast<double>(i % columns) * (layout.panel_width + gap);
+    const double low = static_cast<double>(rows - 1 - i / columns) * row_height;
+    vtkRenderer& renderer =
+        canvas.scene({left, low + caption_height}, {left + layout.panel_width, low + row_height});
     fill(renderer, scene, sheet.view, sheet.scale, layout.metres_per_pixel);
     look_at(renderer, sheet.view, scene.extent, layout.body_height * layout.metres_per_pixel);
     const double centre = left + layout.panel_width / 2;
     Panel captioned = scene.panel;
-    if (strip)
+    if (strips)
       captioned.label.clear();
-    canvas.text({centre, caption_height - 40}, caption_of(captioned),
+    canvas.text({centre, low + caption_height - 40}, caption_of(captioned),
                 {.size = 28, .anchor = Anchor::centre, .width = layout.panel_width});
-    if (!strip)
-      canvas.text({centre, caption_height - 80}, scene.second_line,
+    if (!strips)
+      canvas.text({centre, low + caption_height - 80}, scene.second_line,
                   {.size = 22, .anchor = Anchor::centre, .width = layout.panel_width});
+    else if (i % columns == 0)
+      canvas.text({margin + row_width / 2, low + caption_height - 90}, scene.panel.label,
+                  {.size = 28, .anchor = Anchor::centre, .width = row_width});
   }
-  if (strip)
-    canvas.text({margin + bodies_width / 2, caption_height - 90}, sheet.scenes[first].panel.label,
-                {.size = 28, .anchor = Anchor::centre, .width = bodies_width});
   canvas.text({canvas.width() / 2.0, canvas.height() - title_height / 2}, sheet.drawing.title,
               {.size = 34, .anchor = Anchor::centre, .bold = true, .width = canvas.width() - 2 * margin});
   const double column = canvas.width() - bar_column;
+  const double bodies_height = canvas.height() - title_height - caption_height;
   // Below the bar there is room for the extremes, above the scale of lengths.
   const double below = std::max(0.08 * layout.body_height, 70.0), above = 0.08 * layout.body_height;
   draw_bar(canvas, sheet.scale, sheet.quantity, sheet.range, {column, caption_height + below},
-           layout.body_height - below - above, bar_column);
+           bodies_height - below - above, bar_column);
   draw_length(canvas, layout.metres_per_pixel, {column, caption_height - 24});
   draw_axes(canvas, sheet.view, {column + 70, 44});
   return canvas.png();
