@@ -1,6 +1,7 @@
 #include "app/commands/commands.hpp"
 #include "app/console.hpp"
 #include "app/run_folder.hpp"
+#include "app/study/map.hpp"
 #include "app/study/plan.hpp"
 #include "app/study/results.hpp"
 #include "app/study/run_store.hpp"
@@ -11,10 +12,13 @@
 #include "io/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace tessera::app {
 namespace {
@@ -77,9 +81,15 @@ void study(const Options& options) {
     throw RunError("interrupted", fmt::format("{} of {} runs left to do", left, plan.runs.size()),
                    "run the same command again to go on");
   }
-  const bool picture = draw_pareto(study, results, folder, console.progress());
-  io::write_text(folder / "report.md", results_markdown(study, results, picture));
+  std::vector<std::string> pictures;
+  if (draw_pareto(study, results, folder, console.progress()))
+    pictures.emplace_back("pareto.png");
+  if (study.map.drawn && draw_map(study, results, folder, console.progress()))
+    pictures.emplace_back("map.png");
+  io::write_text(folder / "report.md", results_markdown(study, results, pictures));
 
+  std::vector<std::string> files{"study.csv", "study.json", "report.md"};
+  files.insert(files.end(), pictures.begin(), pictures.end());
   const auto measured = std::count_if(results.rows.begin(), results.rows.end(),
                                       [](const Row& row) { return std::isfinite(row.error); });
   if (measured == 0)
@@ -87,11 +97,10 @@ void study(const Options& options) {
         fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
         folder.string(), "see report.md there");
   console.result(
-      fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: study.csv, study.json, "
-                  "report.md{}\n",
+      fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: {}\n",
                   study.title, measured, measured == 1 ? "" : "s",
                   results.rows.size() - static_cast<std::size_t>(measured),
-                  recommendations_text(study, results), folder.string(), picture ? ", pareto.png" : ""),
+                  recommendations_text(study, results), folder.string(), fmt::join(files, ", ")),
       results_json(study, results));
 }
 

@@ -25,6 +25,8 @@ struct Row {
   double setup_seconds = none; ///< before them, processor time too
   double peak_bytes = none;
   double particles = none, steps = none;
+  double spurious_energy = none; ///< share of its energy that a run gained or lost for no reason
+  bool gave_up = false;          ///< the solver did: the run broke off
   std::string failure; ///< why there are none; "not run" when it has not been yet
 };
 
@@ -51,7 +53,9 @@ std::string recommendations_text(const Study& study, const Results& results);
 
 std::string results_csv(const Study& study, const Results& results);
 std::string results_json(const Study& study, const Results& results);
-std::string results_markdown(const Study& study, const Results& results, bool picture);
+/// With those of the `pictures` there are: "pareto.png", "map.png".
+std::string results_markdown(const Study& study, const Results& results,
+                             const std::vector<std::string>& pictures);
 
 /// pareto.png; false where it could not be drawn, with a note that says why.
 bool draw_pareto(const Study& study, const Results& results, const std::filesystem::path& folder,

@@ -1,5 +1,6 @@
 // study.csv, study.json, report.md and what the program says at the end of a study.
 
+#include "app/study/map.hpp"
 #include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
 #include "postprocess/csv.hpp"
@@ -136,16 +137,17 @@ std::string results_csv(const Study& study, const Results& results) {
   for (const Axis& axis : study.axes)
     cells.push_back(axis.name);
   for (const char* column : {"particles", "steps", "error", "cpu_seconds", "setup_seconds", "peak_bytes",
-                             "front", "run", "failure"})
+                             "spurious_energy", "verdict", "front", "run", "failure"})
     cells.emplace_back(column);
   std::string text = post::csv_line(cells);
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const Row& row = results.rows[i];
     cells = row.labels;
     for (const double value :
-         {row.particles, row.steps, row.error, row.cpu_seconds, row.setup_seconds, row.peak_bytes})
+         {row.particles, row.steps, row.error, row.cpu_seconds, row.setup_seconds, row.peak_bytes,
+          row.spurious_energy})
       cells.push_back(std::isfinite(value) ? fmt::format("{}", value) : "");
-    cells.insert(cells.end(), {on_front(results, i) ? "1" : "0", "runs/" + row.id, row.failure});
+    cells.insert(cells.end(), {verdict_word(verdict(row, study.map)), on_front(results, i) ? "1" : "0", "runs/" + row.id, row.failure});
     text += post::csv_line(cells);
   }
   return text;
@@ -174,6 +176,8 @@ std::string results_json(const Study& study, const Results& results) {
                             {"cpu_seconds", number(row.cpu_seconds)},
                             {"setup_seconds", number(row.setup_seconds)},
                             {"peak_bytes", count(row.peak_bytes)},
+                            {"spurious_energy", number(row.spurious_energy)},
+                            {"verdict", verdict_word(verdict(row, study.map))},
                             {"folder", "runs/" + row.id},
                             {"failure", row.failure.empty() ? Json() : Json(row.failure)}});
   }
@@ -182,12 +186,13 @@ std::string results_json(const Study& study, const Results& results) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string results_markdown(const Study& study, const Results& results, bool picture) {
+std::string results_markdown(const Study& study, const Results& results,
+                             const std::vector<std::string>& pictures) {
   std::string text = fmt::format("# {}\n\n", study.title);
   for (const Recommendation& r : results.recommendations)
     text += fmt::format("- {}\n", recommendation(study, results, r));
-  if (picture)
-    text += "\n![Error against cost](pareto.png)\n";
+  for (const std::string& picture : pictures)
+    text += fmt::format("\n![{}]({})\n", picture == "map.png" ? "Where runs are stable" : "Error against cost", picture);
   text +=
       fmt::format("\nCost is processor time on one thread, so that it means the same on a busy machine: of "
                   "the steps, without what is written;\nset-up, from the geometry to the operators, apart. "

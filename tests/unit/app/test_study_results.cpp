@@ -1,3 +1,4 @@
+#include "app/study/map.hpp"
 #include "app/study/measure.hpp"
 #include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
@@ -80,12 +81,14 @@ class StudyResults : public testing::Test {
     study.colour = study.marker = "size";
     study.error.name = "velocity";
     study.error.targets = {0.1, 0.001};
+    study.map.inaccurate = 0.1;
     for (const char* id : {"a", "b", "c"})
       plan.runs.push_back({{study.axes[0].values[plan.runs.size()].label}, id, id, "", 1});
     std::filesystem::create_directories(store.run("a"));
     std::filesystem::create_directories(folder.path() / "cases");
     folder.file("runs/a/summary.json", R"({"particles": 8, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
-      "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
+      "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01},
+      "energy": {"kinetic": 3, "internal": 2, "plastic": 0, "dissipated": 1, "balance_error": 0.02}})");
     store.keep_failure("b", "blew up");
   }
   CaseFolder folder;
@@ -111,23 +114,50 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_EQ(results.rows[2].failure, "no memory");
   EXPECT_EQ(results.front, std::vector<std::size_t>{0});
   EXPECT_EQ(results_csv(study, results),
-            "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
-            "1,8,4,0.01,0.5,2,3000000,1,runs/a,\n"
-            "\"2, large\",,,,,,,0,runs/b,blew up\n"
-            "3,,,,,,,0,runs/c,no memory\n");
+            "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,spurious_energy,verdict,front,run,"
+            "failure\n"
+            "1,8,4,0.01,0.5,2,3000000,0.02,stable,1,runs/a,\n"
+            "\"2, large\",,,,,,,,unstable,0,runs/b,blew up\n"
+            "3,,,,,,,,,0,runs/c,no memory\n");
   const std::string words = recommendations_text(study, results);
   EXPECT_NE(
       words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
       std::string::npos)
       << words;
   EXPECT_NE(words.find("for 0.1 % velocity error: no run reaches it"), std::string::npos) << words;
-  const std::string report = results_markdown(study, results, true);
+  const std::string report = results_markdown(study, results, {"pareto.png", "map.png"});
   for (const char* piece :
-       {"# three", "pareto.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
+       {"# three", "pareto.png", "map.png", "- 2, large: blew up", "| * | 1 | 8 | 4 | 1 % | 0.5 | 2 | 3 |",
         "| size | 10 % | 0.1 % |\n|:--|:--|:--|\n| 1 | 0.5 s | - |\n| 2, large | - | - |"})
     EXPECT_NE(report.find(piece), std::string::npos) << piece << "\n" << report;
   const std::string json = results_json(study, results);
   EXPECT_NE(json.find("\"failure\": \"no memory\""), std::string::npos) << json;
+}
+
+TEST(Verdict, OfErrorEnergyAndEnd) {
+  const MapLayout layout{true, "a", "b", 0.1, 0.05};
+  Row row;
+  EXPECT_EQ(verdict(row, layout), Verdict::none) << "not run";
+  row.error = 0.1;
+  EXPECT_EQ(verdict(row, layout), Verdict::stable) << "energy is not always known";
+  row.spurious_energy = 0.05;
+  EXPECT_EQ(verdict(row, layout), Verdict::stable);
+  row.error = 0.11;
+  EXPECT_EQ(verdict(row, layout), Verdict::inaccurate);
+  row.spurious_energy = 0.06;
+  EXPECT_EQ(verdict(row, layout), Verdict::unstable);
+  row = {};
+  row.gave_up = true;
+  EXPECT_EQ(verdict(row, layout), Verdict::unstable);
+}
+
+TEST_F(StudyResults, EnergyThatTheDissipationAddsIsSpurious) {
+  folder.file("runs/a/summary.json", R"({"error": {"l2_velocity_relative": 0.01},
+      "energy": {"kinetic": 3, "internal": 1, "plastic": 1, "dissipated": -1, "balance_error": 0.02}})");
+  const Row row = collect_results(study, plan, store, {}).rows[0];
+  EXPECT_DOUBLE_EQ(row.spurious_energy, 0.2);
+  study.map.unbalanced = 0.1;
+  EXPECT_EQ(verdict(row, study.map), Verdict::unstable);
 }
 
 TEST_F(StudyResults, DamagedSummaryIsARowToo) {
