@@ -80,16 +80,19 @@ json of(const CellChart& chart) {
       cells.push_back({static_cast<int>(cell.kind), cell.decades, cell.words});
     panels.push_back({{"title", panel.title}, {"cells", cells}});
   }
-  return {{"file", chart.file},           {"title", chart.title},   {"row_title", chart.row_title},
-          {"column_title", chart.column_title}, {"rows", chart.rows},     {"columns", chart.columns},
-          {"within", chart.within},       {"beyond", chart.beyond}, {"failed", chart.failed},
-          {"panels", panels}};
+  return {{"file", chart.file},           {"title", chart.title},
+          {"row_title", chart.row_title}, {"column_title", chart.column_title},
+          {"rows", chart.rows},           {"columns", chart.columns},
+          {"within", chart.within},       {"beyond", chart.beyond},
+          {"failed", chart.failed},       {"panels", panels}};
 }
 
 CellChart cell_chart_of(const json& value) {
-  CellChart chart{value.at("file"),   value.at("title"),   value.at("row_title"), value.at("column_title"),
-                  value.at("rows"),   value.at("columns"), value.at("within"),    value.at("beyond"),
-                  value.at("failed"), {}};
+  CellChart chart{value.at("file"),      value.at("title"),
+                  value.at("row_title"), value.at("column_title"),
+                  value.at("rows"),      value.at("columns"),
+                  value.at("within"),    value.at("beyond"),
+                  value.at("failed"),    {}};
   for (const json& item : value.at("panels")) {
     CellChart::Panel panel{item.at("title"), {}};
     for (const json& cell : item.at("cells"))
@@ -117,7 +120,8 @@ std::string to_json(const RenderJob& job) {
   for (const CellChart& chart : job.cell_charts)
     cell_charts.push_back(of(chart));
   // Labels come from folder names, which need not be UTF-8.
-  return json{{"drawings", drawings}, {"plots", plots}, {"cell_charts", cell_charts}}.dump(1, ' ', false, json::error_handler_t::replace);
+  return json{{"drawings", drawings}, {"plots", plots}, {"cell_charts", cell_charts}}.dump(
+      1, ' ', false, json::error_handler_t::replace);
 }
 
 RenderJob render_job_from_json(const std::string& text) {

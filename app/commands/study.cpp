@@ -96,12 +96,11 @@ void study(const Options& options) {
     throw RunError(
         fmt::format("no run of the study has an error, the first: {}", results.rows.front().failure),
         folder.string(), "see report.md there");
-  console.result(
-      fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: {}\n",
-                  study.title, measured, measured == 1 ? "" : "s",
-                  results.rows.size() - static_cast<std::size_t>(measured),
-                  recommendations_text(study, results), folder.string(), fmt::join(files, ", ")),
-      results_json(study, results));
+  console.result(fmt::format("{}: {} run{} measured, {} without an error\n{}results in {}: {}\n", study.title,
+                             measured, measured == 1 ? "" : "s",
+                             results.rows.size() - static_cast<std::size_t>(measured),
+                             recommendations_text(study, results), folder.string(), fmt::join(files, ", ")),
+                 results_json(study, results));
 }
 
 } // namespace tessera::app

@@ -16,7 +16,10 @@ using Cell = post::CellChart::Cell;
 /// Two digits are all a cell has room for.
 std::string percent(double share) {
   const double value = 100 * share;
-  return value < 9999.5 ? fmt::format("{:.{}f} %", value, value >= 9.95 ? 0 : value >= 0.995 ? 1 : 2)
+  return value < 9999.5 ? fmt::format("{:.{}f} %", value,
+                                      value >= 9.95    ? 0
+                                      : value >= 0.995 ? 1
+                                                       : 2)
                         : fmt::format("{:.0e} %", value);
 }
 
@@ -76,7 +79,8 @@ bool draw_map(const Study& study, const Results& results, const std::filesystem:
   chart.column_title = words(study.map.columns);
   chart.within = fmt::format("{} up to {}", error_words(study), percent(study.map.inaccurate));
   chart.beyond = "beyond: inaccurate";
-  chart.failed = fmt::format("unstable: broke off, or {} of the energy spurious", percent(study.map.unbalanced));
+  chart.failed =
+      fmt::format("unstable: broke off, or {} of the energy spurious", percent(study.map.unbalanced));
   for (const Axis& axis : study.axes)
     for (const AxisValue& value : axis.values) {
       if (axis.name == study.map.rows)

@@ -34,15 +34,6 @@ std::string reference_failure(const Plan& plan, const RunStore& store, const Fai
   return fmt::format("no finer run: {}", why_missing(plan.finer->id, store, passing));
 }
 
-/// What the ledger misses, or what the dissipation, which should take energy only, has added.
-double spurious_energy(const StoredSummary& summary) {
-  const double energy = summary.number("/energy/kinetic") + summary.number("/energy/internal") +
-                        summary.number("/energy/plastic"),
-               dissipated = summary.number("/energy/dissipated");
-  const double added = energy > 0 && dissipated < 0 ? -dissipated / energy : 0;
-  return std::max(summary.number("/energy/balance_error"), added);
-}
-
 Row row_of(const PlannedRun& run, const RunStore& store, const Failures& passing,
            const std::optional<Measure>& measure, const std::string& unmeasured) {
   Row row;
@@ -60,7 +51,7 @@ Row row_of(const PlannedRun& run, const RunStore& store, const Failures& passing
     row.peak_bytes = summary.number("/peak_bytes");
     row.particles = summary.number("/particles");
     row.steps = summary.number("/steps");
-    row.spurious_energy = spurious_energy(summary);
+    row.spurious_energy = spurious_energy(store.run(run.id));
     if (measure)
       row.error = (*measure)(store.run(run.id));
     row.failure = unmeasured;

@@ -27,7 +27,7 @@ struct Row {
   double particles = none, steps = none;
   double spurious_energy = none; ///< share of its energy that a run gained or lost for no reason
   bool gave_up = false;          ///< the solver did: the run broke off
-  std::string failure; ///< why there are none; "not run" when it has not been yet
+  std::string failure;           ///< why there are none; "not run" when it has not been yet
 };
 
 struct Recommendation {

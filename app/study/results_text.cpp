@@ -143,11 +143,11 @@ std::string results_csv(const Study& study, const Results& results) {
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const Row& row = results.rows[i];
     cells = row.labels;
-    for (const double value :
-         {row.particles, row.steps, row.error, row.cpu_seconds, row.setup_seconds, row.peak_bytes,
-          row.spurious_energy})
+    for (const double value : {row.particles, row.steps, row.error, row.cpu_seconds, row.setup_seconds,
+                               row.peak_bytes, row.spurious_energy})
       cells.push_back(std::isfinite(value) ? fmt::format("{}", value) : "");
-    cells.insert(cells.end(), {verdict_word(verdict(row, study.map)), on_front(results, i) ? "1" : "0", "runs/" + row.id, row.failure});
+    cells.insert(cells.end(), {verdict_word(verdict(row, study.map)), on_front(results, i) ? "1" : "0",
+                               "runs/" + row.id, row.failure});
     text += post::csv_line(cells);
   }
   return text;
@@ -192,7 +192,8 @@ std::string results_markdown(const Study& study, const Results& results,
   for (const Recommendation& r : results.recommendations)
     text += fmt::format("- {}\n", recommendation(study, results, r));
   for (const std::string& picture : pictures)
-    text += fmt::format("\n![{}]({})\n", picture == "map.png" ? "Where runs are stable" : "Error against cost", picture);
+    text += fmt::format("\n![{}]({})\n",
+                        picture == "map.png" ? "Where runs are stable" : "Error against cost", picture);
   text +=
       fmt::format("\nCost is processor time on one thread, so that it means the same on a busy machine: of "
                   "the steps, without what is written;\nset-up, from the geometry to the operators, apart. "

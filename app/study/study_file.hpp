@@ -67,8 +67,8 @@ struct Study {
   ErrorMeasure error;
   std::string colour, marker; ///< names of the axes pareto.png tells apart
   MapLayout map;
-  double time_limit = 0;      ///< wall time of a run, s; 0: none
-  std::string text;           ///< as TOML with absolute paths: what DIR/study.toml holds
+  double time_limit = 0; ///< wall time of a run, s; 0: none
+  std::string text;      ///< as TOML with absolute paths: what DIR/study.toml holds
 };
 
 /// Reads `file` (or file/study.toml where it is a folder). InputError, naming file, line and column, on

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tessera::post {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using Kind = CellChart::Cell::Kind;
 
 constexpr double cell_width = 112, cell_height = 62, gap = 3, names_width = 330, between = 50, margin = 40;
-constexpr double head = 110, panel_head = 60, panel_foot = 100, foot = 80;
+constexpr double head = 110, panel_title = 60, panel_foot = 100, foot = 80;
 constexpr double widest = 2400;
 
 constexpr Colour failed_colour{52, 48, 62}, blank_colour{236, 236, 236};
@@ -42,12 +43,16 @@ Colour colour_of(Kind kind, double decades) {
 /// Where panels and their parts lie, in pixels.
 struct Layout {
   int across, down;
-  double panel_width, panel_height;
+  double panel_width, panel_head, panel_height;
   double width, height;
 
   explicit Layout(const CellChart& chart) {
     const auto panels = std::max<int>(1, static_cast<int>(chart.panels.size()));
     panel_width = cell_width * static_cast<double>(chart.columns.size());
+    panel_head = std::all_of(chart.panels.begin(), chart.panels.end(),
+                             [](const CellChart::Panel& panel) { return panel.title.empty(); })
+                     ? 0
+                     : panel_title;
     panel_height = panel_head + cell_height * static_cast<double>(chart.rows.size()) + panel_foot;
     const double room = widest - 2 * margin - names_width + between;
     across = std::clamp(static_cast<int>(room / (panel_width + between)), 1, panels);
@@ -60,8 +65,8 @@ struct Layout {
   double top(int panel) const { return height - head - panel / across * panel_height - panel_head; }
 };
 
-void draw_panel(Canvas& canvas, const CellChart& chart, const CellChart::Panel& panel, double left, double top,
-                bool row_names) {
+void draw_panel(Canvas& canvas, const CellChart& chart, const CellChart::Panel& panel, double left,
+                double top, bool row_names) {
   const auto rows = chart.rows.size(), columns = chart.columns.size();
   const double width = cell_width * static_cast<double>(columns);
   const auto row_middle = [&](std::size_t r) { return top - (static_cast<double>(r) + 0.5) * cell_height; };
@@ -100,9 +105,11 @@ void draw_legend(Canvas& canvas, const CellChart& chart, double width) {
     Kind kind;
     const std::string& words;
   } entries[] = {{Kind::within, chart.within}, {Kind::beyond, chart.beyond}, {Kind::failed, chart.failed}};
-  const double room = (width - 2 * margin) / 3;
+  constexpr double shares[] = {0.3, 0.22, 0.48}; // of the width, after what the words usually take
   double x = margin;
-  for (const auto& entry : entries) {
+  for (std::size_t i = 0; i < std::size(entries); ++i) {
+    const auto& entry = entries[i];
+    const double room = shares[i] * (width - 2 * margin);
     // The whole range of a colour, from the limit on.
     for (int part = 0; part < 3; ++part)
       canvas.rectangle({x + 20 * part, 30}, {x + 20 * (part + 1), 54}, colour_of(entry.kind, part / 2.0));

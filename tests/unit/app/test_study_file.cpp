@@ -126,12 +126,14 @@ TEST_F(StudyFile, MapOfTwoAxesOrAsAsked) {
   EXPECT_FALSE(read(study_with(before, third + before)).map.drawn);
   EXPECT_TRUE(read(study_with(before, "[map]\n" + third + before)).map.drawn);
 
-  expect_complaint(with_map("[map]\nrows = \"sise\"\n"), {"study.toml:9", "no axis 'sise'", "did you mean 'size'"});
+  expect_complaint(with_map("[map]\nrows = \"sise\"\n"),
+                   {"study.toml:9", "no axis 'sise'", "did you mean 'size'"});
   expect_complaint(with_map("[map]\nrows = \"size\"\n"), {"rows and columns", "'size'", "name two axes"});
   expect_complaint(with_map("[map]\ninaccurate = 0\n"), {"map.inaccurate", "greater than 0"});
   expect_complaint(with_map("[map]\ncolour = 1\n"), {"map.colour"});
   const std::size_t second = complete_study.rfind("[[axis]]");
-  expect_complaint(complete_study.substr(0, second) + "[map]\n", {"the study has one axis", "add an [[axis]]"});
+  expect_complaint(complete_study.substr(0, second) + "[map]\n",
+                   {"the study has one axis", "add an [[axis]]"});
 }
 
 TEST_F(StudyFile, GridIsEveryCombinationButTheExcluded) {

@@ -87,8 +87,8 @@ class StudyResults : public testing::Test {
     std::filesystem::create_directories(store.run("a"));
     std::filesystem::create_directories(folder.path() / "cases");
     folder.file("runs/a/summary.json", R"({"particles": 8, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
-      "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01},
-      "energy": {"kinetic": 3, "internal": 2, "plastic": 0, "dissipated": 1, "balance_error": 0.02}})");
+      "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
+    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n0,5,0,0\n1,5.1,1,0\n");
     store.keep_failure("b", "blew up");
   }
   CaseFolder folder;
@@ -113,12 +113,13 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_EQ(results.rows[1].failure, "blew up");
   EXPECT_EQ(results.rows[2].failure, "no memory");
   EXPECT_EQ(results.front, std::vector<std::size_t>{0});
-  EXPECT_EQ(results_csv(study, results),
-            "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,spurious_energy,verdict,front,run,"
-            "failure\n"
-            "1,8,4,0.01,0.5,2,3000000,0.02,stable,1,runs/a,\n"
-            "\"2, large\",,,,,,,,unstable,0,runs/b,blew up\n"
-            "3,,,,,,,,,0,runs/c,no memory\n");
+  EXPECT_EQ(
+      results_csv(study, results),
+      "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,spurious_energy,verdict,front,run,"
+      "failure\n"
+      "1,8,4,0.01,0.5,2,3000000,0.02,stable,1,runs/a,\n"
+      "\"2, large\",,,,,,,,unstable,0,runs/b,blew up\n"
+      "3,,,,,,,,,0,runs/c,no memory\n");
   const std::string words = recommendations_text(study, results);
   EXPECT_NE(
       words.find("for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; its error is 1 %"),
@@ -151,11 +152,19 @@ TEST(Verdict, OfErrorEnergyAndEnd) {
   EXPECT_EQ(verdict(row, layout), Verdict::unstable);
 }
 
-TEST_F(StudyResults, EnergyThatTheDissipationAddsIsSpurious) {
-  folder.file("runs/a/summary.json", R"({"error": {"l2_velocity_relative": 0.01},
-      "energy": {"kinetic": 3, "internal": 1, "plastic": 1, "dissipated": -1, "balance_error": 0.02}})");
+TEST_F(StudyResults, SpuriousEnergyIsHeldAgainstWhatWasGiven) {
+  const auto history = [&](const std::string& rows) {
+    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n" + rows);
+    return spurious_energy(folder.path() / "runs/a");
+  };
+  // However much there is later: a body that blows up is not excused by its size.
+  EXPECT_DOUBLE_EQ(history("0,4,0,0\n1,4.5,900,6\n2,3.8,1000,-3\n"), 0.05);
+  EXPECT_DOUBLE_EQ(history("0,4,0,0\n1,4,-1,0\n2,4,2,0\n"), 0.25) << "dissipation that adds";
+  EXPECT_TRUE(std::isnan(history("0,0,0,0\n1,0,0,0\n"))) << "nothing was given";
+  EXPECT_TRUE(std::isnan(spurious_energy(folder.path())));
+  history("0,4,0,0\n1,5,0,0\n");
   const Row row = collect_results(study, plan, store, {}).rows[0];
-  EXPECT_DOUBLE_EQ(row.spurious_energy, 0.2);
+  EXPECT_DOUBLE_EQ(row.spurious_energy, 0.25);
   study.map.unbalanced = 0.1;
   EXPECT_EQ(verdict(row, study.map), Verdict::unstable);
 }

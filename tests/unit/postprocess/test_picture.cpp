@@ -184,8 +184,8 @@ TEST(Plot, CurvesAreDrawnAndOddValuesLeftOut) {
 TEST(CellChart, EachKindHasItsColour) {
   using Cell = CellChart::Cell;
   const TemporaryFolder folder;
-  CellChart chart{(folder / "c.png").string(), "Title", "rows", "columns", {"a"}, {"1", "2", "3", "4"},
-                  "within", "beyond", "failed", {}};
+  CellChart chart{(folder / "c.png").string(), "Title",  "rows",   "columns", {"a"},
+                  {"1", "2", "3", "4"},        "within", "beyond", "failed",  {}};
   chart.panels.push_back({"panel",
                           {{Cell::Kind::within, -2, "0.1 %"},
                            {Cell::Kind::beyond, 5, "1e+06 %"},
@@ -196,8 +196,8 @@ TEST(CellChart, EachKindHasItsColour) {
   EXPECT_EQ(notes.out.str(), "");
   ASSERT_EQ(files.size(), 1u);
   const Seen one(files[0]);
-  for (const std::array<int, 3>& colour :
-       {std::array{86, 158, 220}, std::array{226, 110, 40}, std::array{52, 48, 62}, std::array{236, 236, 236}})
+  for (const std::array<int, 3>& colour : {std::array{86, 158, 220}, std::array{226, 110, 40},
+                                           std::array{52, 48, 62}, std::array{236, 236, 236}})
     EXPECT_TRUE(one.colours.contains(colour)) << colour[0];
 
   // Panels stand beside each other as long as there is room, then below.

@@ -26,8 +26,17 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   job.drawings = {drawing};
   job.plots = {
       {"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true, 3, 2}}}}, true}};
-  job.cell_charts = {{"m.png", "t", "r", "c", {"a"}, {"b", "d"}, "good", "poor", "bad",
-                      {{"p", {{CellChart::Cell::Kind::within, -1.5, "1 %"}, {CellChart::Cell::Kind::failed, 0, "x"}}}}}};
+  job.cell_charts = {
+      {"m.png",
+       "t",
+       "r",
+       "c",
+       {"a"},
+       {"b", "d"},
+       "good",
+       "poor",
+       "bad",
+       {{"p", {{CellChart::Cell::Kind::within, -1.5, "1 %"}, {CellChart::Cell::Kind::failed, 0, "x"}}}}}};
   const RenderJob read = render_job_from_json(to_json(job));
   const Drawing& d = read.drawings.at(0);
   EXPECT_EQ(d.file, drawing.file);
