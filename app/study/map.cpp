@@ -16,6 +16,8 @@ using Cell = post::CellChart::Cell;
 /// Two digits are all a cell has room for.
 std::string percent(double share) {
   const double value = 100 * share;
+  if (value > 0 && value < 0.005)
+    return "< 0.01 %";
   return value < 9999.5 ? fmt::format("{:.{}f} %", value,
                                       value >= 9.95    ? 0
                                       : value >= 0.995 ? 1

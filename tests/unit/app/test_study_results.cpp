@@ -88,7 +88,7 @@ class StudyResults : public testing::Test {
     std::filesystem::create_directories(folder.path() / "cases");
     folder.file("runs/a/summary.json", R"({"particles": 8, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
       "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
-    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n0,5,0,0\n1,5.1,1,0\n");
+    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n0,16,0,0\n1,17,1,0\n");
     store.keep_failure("b", "blew up");
   }
   CaseFolder folder;
@@ -117,7 +117,7 @@ TEST_F(StudyResults, FailedRunIsARow) {
       results_csv(study, results),
       "size,particles,steps,error,cpu_seconds,setup_seconds,peak_bytes,spurious_energy,verdict,front,run,"
       "failure\n"
-      "1,8,4,0.01,0.5,2,3000000,0.02,stable,1,runs/a,\n"
+      "1,8,4,0.01,0.5,2,3000000,0.0625,stable,1,runs/a,\n"
       "\"2, large\",,,,,,,,unstable,0,runs/b,blew up\n"
       "3,,,,,,,,,0,runs/c,no memory\n");
   const std::string words = recommendations_text(study, results);
