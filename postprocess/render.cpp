@@ -63,7 +63,8 @@ double time_limit(const RenderJob& job) {
 }
 
 std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
-  if (job.drawings.empty() && job.plots.empty())
+  const std::size_t wanted = job.drawings.size() + job.plots.size() + job.cell_charts.size();
+  if (wanted == 0)
     return {};
   const fs::path xvfb = find_program("xvfb-run");
   const fs::path program = companion_program("tessera-render");
@@ -92,7 +93,7 @@ std::vector<fs::path> render(const RenderJob& job, Progress& progress) try {
   const std::vector<std::string> notes = lines_after("note: ", end.output);
   for (const std::string& note : notes)
     progress.note(note);
-  if (written.size() + notes.size() < job.drawings.size() + job.plots.size())
+  if (written.size() + notes.size() < wanted)
     progress.note(fmt::format("pictures are missing: {}", why_it_failed(end, time_limit(job))));
   return written;
 } catch (const std::exception& error) {

@@ -77,9 +77,31 @@ struct Plot {
   bool beside = false;
 };
 
+/// Numbers over two lists of choices: coloured cells with a few words in each. Cells within the limit are
+/// blue and those beyond it orange, both the stronger the further from it; what failed is dark.
+struct CellChart {
+  struct Cell {
+    enum class Kind { blank, within, beyond, failed };
+    Kind kind = Kind::blank;
+    double decades = 0; ///< of the number from the limit, of either sign
+    std::string words;
+  };
+  struct Panel {
+    std::string title;
+    std::vector<Cell> cells; ///< row by row from above, each from the left
+  };
+
+  std::string file; ///< PNG to write
+  std::string title, row_title, column_title;
+  std::vector<std::string> rows, columns;
+  std::string within, beyond, failed; ///< what the three colours mean
+  std::vector<Panel> panels;          ///< each of rows times columns cells
+};
+
 struct RenderJob {
   std::vector<Drawing> drawings;
   std::vector<Plot> plots;
+  std::vector<CellChart> cell_charts = {};
 };
 
 /// How long drawing may take, s.

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace tessera::post {
@@ -125,10 +126,43 @@ Chart chart_of(const json& value) {
   return chart;
 }
 
+json of(const CellChart& chart) {
+  json panels = json::array();
+  for (const CellChart::Panel& panel : chart.panels) {
+    json cells = json::array();
+    for (const CellChart::Cell& cell : panel.cells)
+      cells.push_back({static_cast<int>(cell.kind), cell.decades, cell.words});
+    panels.push_back({{"title", panel.title}, {"cells", cells}});
+  }
+  return {{"file", chart.file},           {"title", chart.title},
+          {"row_title", chart.row_title}, {"column_title", chart.column_title},
+          {"rows", chart.rows},           {"columns", chart.columns},
+          {"within", chart.within},       {"beyond", chart.beyond},
+          {"failed", chart.failed},       {"panels", panels}};
+}
+
+CellChart cell_chart_of(const json& value) {
+  CellChart chart{value.at("file"),      value.at("title"),
+                  value.at("row_title"), value.at("column_title"),
+                  value.at("rows"),      value.at("columns"),
+                  value.at("within"),    value.at("beyond"),
+                  value.at("failed"),    {}};
+  for (const json& item : value.at("panels")) {
+    CellChart::Panel panel{item.at("title"), {}};
+    for (const json& cell : item.at("cells"))
+      panel.cells.push_back({static_cast<CellChart::Cell::Kind>(std::clamp(cell.at(0).get<int>(), 0, 3)),
+                             number(cell.at(1)), cell.at(2)});
+    if (panel.cells.size() != chart.rows.size() * chart.columns.size())
+      throw InputError("a panel has not a cell for each row and column", chart.file, "");
+    chart.panels.push_back(std::move(panel));
+  }
+  return chart;
+}
+
 } // namespace
 
 std::string to_json(const RenderJob& job) {
-  json drawings = json::array(), plots = json::array();
+  json drawings = json::array(), plots = json::array(), cell_charts = json::array();
   for (const Drawing& drawing : job.drawings)
     drawings.push_back(of(drawing));
   for (const Plot& plot : job.plots) {
@@ -137,8 +171,11 @@ std::string to_json(const RenderJob& job) {
       charts.push_back(of(chart));
     plots.push_back({{"file", plot.file}, {"charts", charts}, {"beside", plot.beside}});
   }
+  for (const CellChart& chart : job.cell_charts)
+    cell_charts.push_back(of(chart));
   // Labels come from folder names, which need not be UTF-8.
-  return json{{"drawings", drawings}, {"plots", plots}}.dump(1, ' ', false, json::error_handler_t::replace);
+  return json{{"drawings", drawings}, {"plots", plots}, {"cell_charts", cell_charts}}.dump(
+      1, ' ', false, json::error_handler_t::replace);
 }
 
 RenderJob render_job_from_json(const std::string& text) {
@@ -153,6 +190,8 @@ RenderJob render_job_from_json(const std::string& text) {
         plot.charts.push_back(chart_of(chart));
       job.plots.push_back(std::move(plot));
     }
+    for (const json& value : root.at("cell_charts"))
+      job.cell_charts.push_back(cell_chart_of(value));
   } catch (const json::exception& error) {
     throw InputError(std::string("not a list of pictures: ") + error.what(), "", "");
   }

@@ -1,6 +1,7 @@
 #include "app/commands/commands.hpp"
 #include "app/console.hpp"
 #include "app/run_folder.hpp"
+#include "app/study/map.hpp"
 #include "app/study/plan.hpp"
 #include "app/study/results.hpp"
 #include "app/study/run_store.hpp"
@@ -16,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace tessera::app {
 namespace {

@@ -77,6 +77,20 @@ double history_error(const TimeSeries& run, const TimeSeries& truth, ErrorMeasur
   }
 }
 
+double spurious_energy(const fs::path& folder) {
+  if (!fs::exists(folder / "history.csv"))
+    return std::numeric_limits<double>::quiet_NaN();
+  const io::History history = io::read_history(folder / "history.csv");
+  const std::vector<double>&total = history.column("total_J"), &dissipated = history.column("dissipated_J"),
+        &external = history.column("external_J");
+  double given = 0, spurious = 0;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    given = std::max(given, total.front() + external[i]);
+    spurious = std::max({spurious, std::abs(total[i] - total.front()), -dissipated[i]});
+  }
+  return given > 0 ? spurious / given : std::numeric_limits<double>::quiet_NaN();
+}
+
 Measure::Measure(const ErrorMeasure& measure, std::string column, const fs::path& finer)
     : measure_(measure), column_(std::move(column)), finer_(finer) {
   if (measure.history)

@@ -20,6 +20,11 @@ struct TimeSeries {
 /// last. InputError where these times are fewer than two.
 double history_error(const TimeSeries& run, const TimeSeries& truth, ErrorMeasure::Norm norm);
 
+/// Share of the energy a run was given, at its start and by work from outside, that its ledger cannot account
+/// for or that the dissipation, which should only take, has added: the worst over history.csv. NaN without
+/// that file, and where nothing was given. InputError when it cannot be read.
+double spurious_energy(const std::filesystem::path& folder);
+
 class Measure {
  public:
   /// `column`: of history.csv, where a probe is measured. `finer`: folder of the finished finer run, where

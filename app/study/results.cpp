@@ -38,6 +38,7 @@ Row row_of(const PlannedRun& run, const RunStore& store, const Failures& passing
   row.id = run.id;
   if (!store.finished(run.id)) {
     row.failure = why_missing(run.id, store, passing);
+    row.gave_up = store.failure(run.id).has_value();
     return row;
   }
   try {
@@ -48,6 +49,7 @@ Row row_of(const PlannedRun& run, const RunStore& store, const Failures& passing
     row.particles = summary.number("/particles");
     row.steps = summary.number("/steps");
     row.spacing = summary.number("/spacing");
+    row.spurious_energy = spurious_energy(store.run(run.id));
     if (measure)
       row.error = (*measure)(store.run(run.id));
     row.failure = unmeasured;

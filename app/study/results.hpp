@@ -26,8 +26,10 @@ struct Row {
   double setup_seconds = none; ///< before them, processor time too
   double peak_bytes = none;
   double particles = none, steps = none;
-  double spacing = none; ///< nominal, m
-  std::string failure;   ///< why there are none; "not run" when it has not been yet
+  double spacing = none;         ///< nominal, m
+  double spurious_energy = none; ///< share of its energy that a run gained or lost for no reason
+  bool gave_up = false;          ///< the solver did: the run broke off
+  std::string failure;           ///< why there are none; "not run" when it has not been yet
 
   std::string words() const; ///< the labels in a line
 };
@@ -65,8 +67,8 @@ std::string results_json(const Study& study, const Results& results);
 post::Document results_report(const Study& study, const Results& results,
                               const std::vector<std::filesystem::path>& pictures);
 
-/// pareto.png, and convergence.png where an axis is a size; in `folder`. What could not be drawn, and why, is
-/// a note.
+/// pareto.png, convergence.png where an axis is a size, and map.png where the study has one; in `folder`.
+/// What could not be drawn, and why, is a note.
 std::vector<std::filesystem::path> draw_results(const Study& study, const Results& results,
                                                 const std::filesystem::path& folder, Progress& progress);
 

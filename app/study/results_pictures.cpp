@@ -1,6 +1,7 @@
-// pareto.png and convergence.png.
+// pareto.png, convergence.png and map.png.
 
 #include "app/study/convergence.hpp"
+#include "app/study/map.hpp"
 #include "app/study/results.hpp"
 #include "postprocess/render_job.hpp"
 
@@ -161,6 +162,11 @@ std::vector<fs::path> draw_results(const Study& study, const Results& results, c
     add("pareto.png", {std::move(*chart)});
   if (auto charts = convergence_charts(study, results); !charts.empty())
     add("convergence.png", std::move(charts));
+  if (study.map.drawn) {
+    post::CellChart map = map_of(study, results);
+    map.file = fs::absolute(folder / "map.png").string();
+    job.cell_charts.push_back(std::move(map));
+  }
   return post::render(job, progress);
 }
 

@@ -108,6 +108,10 @@ post::Document results_report(const Study& study, const Results& results,
   paragraph("Cost is processor time on one thread, so that it means the same on a busy machine: of the "
             "steps, without what is written; set-up, from the geometry to the operators, apart. Errors are "
             "relative. Each run is in `runs/`, named in study.csv.");
+  if (study.map.drawn) {
+    heading("Where runs are stable");
+    picture("map.png");
+  }
   heading(fmt::format("The cheapest by {} and error", study.colour));
   report.blocks.push_back(table_by_colour(study, results));
   heading("What is worth its cost");

@@ -1,6 +1,6 @@
 // study.csv, study.json and what the program says at the end of a study.
 
-#include "app/study/pareto.hpp"
+#include "app/study/map.hpp"
 #include "app/study/results.hpp"
 #include "postprocess/csv.hpp"
 #include "postprocess/quantity.hpp"
@@ -77,16 +77,17 @@ std::string results_csv(const Study& study, const Results& results) {
   for (const Axis& axis : study.axes)
     cells.push_back(axis.name);
   for (const char* column : {"particles", "spacing_m", "steps", "error", "cpu_seconds", "setup_seconds",
-                             "peak_bytes", "front", "run", "failure"})
+                             "peak_bytes", "spurious_energy", "verdict", "front", "run", "failure"})
     cells.emplace_back(column);
   std::string text = post::csv_line(cells);
   for (std::size_t i = 0; i < results.rows.size(); ++i) {
     const Row& row = results.rows[i];
     cells = row.labels;
     for (const double value : {row.particles, row.spacing, row.steps, row.error, row.cpu_seconds,
-                               row.setup_seconds, row.peak_bytes})
+                               row.setup_seconds, row.peak_bytes, row.spurious_energy})
       cells.push_back(std::isfinite(value) ? fmt::format("{}", value) : "");
-    cells.insert(cells.end(), {results.on_front(i) ? "1" : "0", "runs/" + row.id, row.failure});
+    cells.insert(cells.end(), {verdict_word(verdict(row, study.map)), results.on_front(i) ? "1" : "0",
+                               "runs/" + row.id, row.failure});
     text += post::csv_line(cells);
   }
   return text;
@@ -116,6 +117,8 @@ std::string results_json(const Study& study, const Results& results) {
                             {"cpu_seconds", number(row.cpu_seconds)},
                             {"setup_seconds", number(row.setup_seconds)},
                             {"peak_bytes", count(row.peak_bytes)},
+                            {"spurious_energy", number(row.spurious_energy)},
+                            {"verdict", verdict_word(verdict(row, study.map))},
                             {"folder", "runs/" + row.id},
                             {"failure", row.failure.empty() ? Json() : Json(row.failure)}});
   }

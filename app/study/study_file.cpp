@@ -82,7 +82,7 @@ std::vector<Axis> read_axes(const std::vector<Table>& tables, const Table& root)
     Axis axis = read_axis(table);
     // Names of the columns beside the axes' own.
     for (const char* taken : {"particles", "spacing_m", "steps", "error", "cpu_seconds", "setup_seconds",
-                              "peak_bytes", "front", "run", "failure"})
+                              "peak_bytes", "spurious_energy", "verdict", "front", "run", "failure"})
       if (axis.name == taken)
         table.refuse("name", fmt::format("an axis may not be called '{}'", taken),
                      "study.csv has a column of that name");
@@ -230,6 +230,34 @@ std::vector<std::string> read_common(Table& table, const std::vector<Axis>& axes
   return assignments;
 }
 
+/// Drawn where the study has the table [map], or two axes.
+MapLayout read_map(std::optional<Table> table, const std::vector<Axis>& axes, double inaccurate,
+                   const Table& root) {
+  MapLayout map;
+  map.inaccurate = inaccurate;
+  map.drawn = table.has_value() || axes.size() == 2;
+  if (axes.size() < 2) {
+    if (table)
+      root.refuse("map", "the study has one axis", "a map needs two: leave [map] out, or add an [[axis]]");
+    return map;
+  }
+  map.rows = axes[axes.size() - 2].name;
+  map.columns = axes.back().name;
+  if (!table)
+    return map;
+  map.rows = table->text_or("rows", map.rows);
+  map.columns = table->text_or("columns", map.columns);
+  map.inaccurate = table->number_or("inaccurate", inaccurate, positive);
+  map.unbalanced = table->number_or("unbalanced", map.unbalanced, positive);
+  table->finish();
+  find_axis(axes, map.rows, *table, "rows");
+  find_axis(axes, map.columns, *table, "columns");
+  if (map.rows == map.columns)
+    table->refuse("columns", fmt::format("rows and columns of the map are both '{}'", map.rows),
+                  "name two axes");
+  return map;
+}
+
 } // namespace
 
 Study read_study(const fs::path& file) {
@@ -242,7 +270,7 @@ Study read_study(const fs::path& file) {
   Table root(document);
   study.title = root.text_or("title", study.name);
   const std::string case_file = root.text("case");
-  std::optional<Table> common = root.optional_table("common");
+  std::optional<Table> common = root.optional_table("common"), map = root.optional_table("map");
   const std::vector<Table> axes = root.tables("axis"), exclusions = root.tables("exclude");
   Table error = root.table("error");
   study.time_limit = root.number_or("time_limit", 0, not_negative);
@@ -268,6 +296,8 @@ Study read_study(const fs::path& file) {
   study.marker = root.text_or("marker", study.axes.size() > 2 ? study.axes[1].name : study.colour);
   find_axis(study.axes, study.colour, root, "colour");
   find_axis(study.axes, study.marker, root, "marker");
+
+  study.map = read_map(std::move(map), study.axes, study.error.targets.front(), root);
 
   toml::table stored = document.root();
   stored.insert_or_assign("case", study.case_file.string());

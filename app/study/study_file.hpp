@@ -48,6 +48,14 @@ struct ErrorMeasure {
   std::vector<double> targets;                   ///< errors to recommend a run for, descending
 };
 
+/// How map.png lays the runs out, and when it calls a run inaccurate or unstable.
+struct MapLayout {
+  bool drawn = false;
+  std::string rows, columns; ///< names of axes; the values of the others stand in panels of their own
+  double inaccurate = 0;     ///< relative error from which on a run is
+  double unbalanced = 0.1;   ///< spurious share of the energy from which on a run is unstable
+};
+
 struct Study {
   std::string title;
   std::string name;           ///< of the default output folder: "swinging_cube-study"
@@ -58,8 +66,9 @@ struct Study {
   std::vector<Exclusion> exclude;
   ErrorMeasure error;
   std::string colour, marker; ///< names of the axes pareto.png tells apart
-  double time_limit = 0;      ///< wall time of a run, s; 0: none
-  std::string text;           ///< as TOML with absolute paths: what DIR/study.toml holds
+  MapLayout map;
+  double time_limit = 0; ///< wall time of a run, s; 0: none
+  std::string text;      ///< as TOML with absolute paths: what DIR/study.toml holds
 };
 
 /// Reads `file` (or file/study.toml where it is a folder). InputError, naming file, line and column, on

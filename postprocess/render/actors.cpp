@@ -180,8 +180,8 @@ vtkSmartPointer<vtkActor> skin_faces(const CutBody& body, const ColourScale& sca
   auto actor = coloured(*mapper, scale);
   actor->GetProperty()->SetInterpolationToPhong();
   // No highlights: they would pass for values.
-  actor->GetProperty()->SetAmbient(0.58);
-  actor->GetProperty()->SetDiffuse(0.45);
+  actor->GetProperty()->SetAmbient(0.72);
+  actor->GetProperty()->SetDiffuse(0.30);
   actor->GetProperty()->SetSpecular(0);
   return actor;
 }

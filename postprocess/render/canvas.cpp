@@ -19,7 +19,7 @@
 namespace tessera::post {
 namespace {
 
-constexpr double ink = 0.13; ///< grey of all text
+constexpr double ink = 0.13; ///< grey of text on white
 
 /// A filled polygon or a line in pixels.
 vtkSmartPointer<vtkActor2D> shape(const std::vector<Pixel>& corners, bool filled, Colour colour,
@@ -77,7 +77,8 @@ void Canvas::text(Pixel at, const std::string& words, const TextStyle& style) {
   vtkTextProperty& property = *actor->GetTextProperty();
   property.SetFontFamilyToArial();
   property.SetBold(style.bold);
-  property.SetColor(ink, ink, ink);
+  const double grey = style.light ? 1 : ink;
+  property.SetColor(grey, grey, grey);
   property.SetVerticalJustificationToCentered();
   if (style.anchor == Anchor::left)
     property.SetJustificationToLeft();

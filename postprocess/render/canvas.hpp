@@ -25,6 +25,7 @@ struct TextStyle {
   int size = 26;
   Anchor anchor = Anchor::left; ///< which part of the text lies at the given x; vertically its middle does
   bool bold = false;
+  bool light = false;   ///< white, for dark grounds
   bool upwards = false; ///< turned to read from below to above; the anchor is then along y
   double width = 0;     ///< the size shrinks until the text fits; 0: no limit
 };

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/vtk_messages.hpp"
+#include "postprocess/render/cell_chart.hpp"
 #include "postprocess/render/drawing.hpp"
 #include "postprocess/render/plot.hpp"
 #include "postprocess/render_job.hpp"
@@ -61,6 +62,8 @@ int main(int argc, char** argv) try {
     attempt(drawing.file, [&] { post::draw_body(drawing); });
   for (const post::Plot& plot : job.plots)
     attempt(plot.file, [&] { post::draw_plot(plot); });
+  for (const post::CellChart& chart : job.cell_charts)
+    attempt(chart.file, [&] { post::draw_cell_chart(chart); });
   // Everything is written; graphics drivers are known to leak or crash on the way out.
   std::_Exit(0);
 } catch (const tessera::Error& error) {

@@ -149,6 +149,7 @@ TEST(Study, AFailedRunIsARowAndNotTheEnd) {
   EXPECT_NE(result.out.find("1 run measured, 1 without an error"), std::string::npos) << result.out;
   const auto runs = runs_of(place, "out");
   EXPECT_TRUE(runs.at("slow").at("failure").is_null());
+  EXPECT_EQ(runs.at("too fast").at("verdict"), "unstable");
   EXPECT_NE(runs.at("too fast").at("failure").get<std::string>().find("particle"), std::string::npos);
   EXPECT_TRUE(runs.at("too fast").at("error").is_null());
   EXPECT_NE(place.read("out/report.md").find("## Without an error\n- too fast: "), std::string::npos);

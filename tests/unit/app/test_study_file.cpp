@@ -92,14 +92,48 @@ TEST_F(StudyFile, AxesBecomeAssignments) {
 }
 
 TEST_F(StudyFile, ThoseOfTheProjectAreValid) {
-  int studies = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           std::filesystem::path(TESSERA_SOURCE_DIR) / "geometries"))
+  const std::filesystem::path project = TESSERA_SOURCE_DIR;
+  int studies = 0, maps = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(project / "geometries"))
     if (entry.path().filename() == "study.toml") {
       ++studies;
       EXPECT_NO_THROW(plan_study(read_study(entry.path()), {})) << entry.path();
     }
+  for (const auto& entry : std::filesystem::directory_iterator(project / "docs/maps"))
+    if (entry.path().extension() == ".toml") {
+      ++maps;
+      EXPECT_NO_THROW(plan_study(read_study(entry.path()), {})) << entry.path();
+    }
   EXPECT_GE(studies, 3);
+  EXPECT_GE(maps, 5);
+}
+
+TEST_F(StudyFile, MapOfTwoAxesOrAsAsked) {
+  const Study plain = read(complete_study);
+  EXPECT_TRUE(plain.map.drawn);
+  EXPECT_EQ(plain.map.rows, "cloud");
+  EXPECT_EQ(plain.map.columns, "size");
+  EXPECT_EQ(plain.map.inaccurate, plain.error.targets.front());
+  const std::string before = "[[axis]]\nname = \"cloud\"";
+  const auto with_map = [&](const std::string& map) { return study_with(before, map + before); };
+  const Study asked =
+      read(with_map("[map]\nrows = \"size\"\ncolumns = \"cloud\"\ninaccurate = 0.02\nunbalanced = 0.5\n"));
+  EXPECT_EQ(asked.map.rows, "size");
+  EXPECT_EQ(asked.map.columns, "cloud");
+  EXPECT_EQ(asked.map.inaccurate, 0.02);
+  EXPECT_EQ(asked.map.unbalanced, 0.5);
+  const std::string third = "[[axis]]\nname = \"step\"\nkey = \"solver.cfl\"\nvalues = [0.5, 0.8]\n";
+  EXPECT_FALSE(read(study_with(before, third + before)).map.drawn);
+  EXPECT_TRUE(read(study_with(before, "[map]\n" + third + before)).map.drawn);
+
+  expect_complaint(with_map("[map]\nrows = \"sise\"\n"),
+                   {"study.toml:9", "no axis 'sise'", "did you mean 'size'"});
+  expect_complaint(with_map("[map]\nrows = \"size\"\n"), {"rows and columns", "'size'", "name two axes"});
+  expect_complaint(with_map("[map]\ninaccurate = 0\n"), {"map.inaccurate", "greater than 0"});
+  expect_complaint(with_map("[map]\ncolour = 1\n"), {"map.colour"});
+  const std::size_t second = complete_study.rfind("[[axis]]");
+  expect_complaint(complete_study.substr(0, second) + "[map]\n",
+                   {"the study has one axis", "add an [[axis]]"});
 }
 
 TEST_F(StudyFile, GridIsEveryCombinationButTheExcluded) {

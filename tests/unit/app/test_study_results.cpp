@@ -1,4 +1,5 @@
 #include "app/study/convergence.hpp"
+#include "app/study/map.hpp"
 #include "app/study/measure.hpp"
 #include "app/study/pareto.hpp"
 #include "app/study/results.hpp"
@@ -81,6 +82,7 @@ class StudyResults : public testing::Test {
     study.colour = study.marker = "size";
     study.error.name = "velocity";
     study.error.targets = {0.1, 0.001};
+    study.map.inaccurate = 0.1;
     for (const char* id : {"a", "b", "c"})
       plan.runs.push_back({{study.axes[0].values[plan.runs.size()].label}, id, id, "", 1});
     std::filesystem::create_directories(store.run("a"));
@@ -88,6 +90,7 @@ class StudyResults : public testing::Test {
     folder.file("runs/a/summary.json",
                 R"({"particles": 8, "spacing": 0.25, "steps": 4, "cpu_seconds": 0.5, "setup_seconds": 2,
       "peak_bytes": 3000000, "error": {"l2_velocity_relative": 0.01}})");
+    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n0,16,0,0\n1,17,1,0\n");
     store.keep_failure("b", "blew up");
   }
   CaseFolder folder;
@@ -112,11 +115,12 @@ TEST_F(StudyResults, FailedRunIsARow) {
   EXPECT_EQ(results.rows[1].failure, "blew up");
   EXPECT_EQ(results.rows[2].failure, "no memory");
   EXPECT_EQ(results.front, std::vector<std::size_t>{0});
-  EXPECT_EQ(results_csv(study, results),
-            "size,particles,spacing_m,steps,error,cpu_seconds,setup_seconds,peak_bytes,front,run,failure\n"
-            "1,8,0.25,4,0.01,0.5,2,3000000,1,runs/a,\n"
-            "\"2, large\",,,,,,,,0,runs/b,blew up\n"
-            "3,,,,,,,,0,runs/c,no memory\n");
+  EXPECT_EQ(results_csv(study, results), "size,particles,spacing_m,steps,error,cpu_seconds,setup_seconds,"
+                                         "peak_bytes,spurious_energy,verdict,front,run,"
+                                         "failure\n"
+                                         "1,8,0.25,4,0.01,0.5,2,3000000,0.0625,stable,1,runs/a,\n"
+                                         "\"2, large\",,,,,,,,,unstable,0,runs/b,blew up\n"
+                                         "3,,,,,,,,,,0,runs/c,no memory\n");
   EXPECT_EQ(
       recommendations_text(study, results),
       (std::vector<std::string>{"for 10 % velocity error: 1 (8 particles) costs 0.5 s, and 2 s of set-up; "
@@ -159,6 +163,40 @@ TEST(Convergence, OrderOfEachCurveOfAtLeastThreeSizes) {
   EXPECT_NEAR(all[1].order, 1, 1e-12);
   study.colour = study.marker = "size";
   EXPECT_TRUE(convergence(study, results).empty());
+}
+
+TEST(Verdict, OfErrorEnergyAndEnd) {
+  const MapLayout layout{true, "a", "b", 0.1, 0.05};
+  Row row;
+  EXPECT_EQ(verdict(row, layout), Verdict::none) << "not run";
+  row.error = 0.1;
+  EXPECT_EQ(verdict(row, layout), Verdict::stable) << "energy is not always known";
+  row.spurious_energy = 0.05;
+  EXPECT_EQ(verdict(row, layout), Verdict::stable);
+  row.error = 0.11;
+  EXPECT_EQ(verdict(row, layout), Verdict::inaccurate);
+  row.spurious_energy = 0.06;
+  EXPECT_EQ(verdict(row, layout), Verdict::unstable);
+  row = {};
+  row.gave_up = true;
+  EXPECT_EQ(verdict(row, layout), Verdict::unstable);
+}
+
+TEST_F(StudyResults, SpuriousEnergyIsHeldAgainstWhatWasGiven) {
+  const auto history = [&](const std::string& rows) {
+    folder.file("runs/a/history.csv", "time_s,total_J,dissipated_J,external_J\n" + rows);
+    return spurious_energy(folder.path() / "runs/a");
+  };
+  // However much there is later: a body that blows up is not excused by its size.
+  EXPECT_DOUBLE_EQ(history("0,4,0,0\n1,4.5,900,6\n2,3.8,1000,-3\n"), 0.05);
+  EXPECT_DOUBLE_EQ(history("0,4,0,0\n1,4,-1,0\n2,4,2,0\n"), 0.25) << "dissipation that adds";
+  EXPECT_TRUE(std::isnan(history("0,0,0,0\n1,0,0,0\n"))) << "nothing was given";
+  EXPECT_TRUE(std::isnan(spurious_energy(folder.path())));
+  history("0,4,0,0\n1,5,0,0\n");
+  const Row row = collect_results(study, plan, store, {}).rows[0];
+  EXPECT_DOUBLE_EQ(row.spurious_energy, 0.25);
+  study.map.unbalanced = 0.1;
+  EXPECT_EQ(verdict(row, study.map), Verdict::unstable);
 }
 
 TEST_F(StudyResults, DamagedSummaryIsARowToo) {

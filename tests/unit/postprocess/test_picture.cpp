@@ -278,5 +278,37 @@ TEST(Plot, CurvesAreDrawnAndOddValuesLeftOut) {
   EXPECT_TRUE(seen.colours.contains({220, 50, 32}));
 }
 
+TEST(CellChart, EachKindHasItsColour) {
+  using Cell = CellChart::Cell;
+  const TemporaryFolder folder;
+  CellChart chart{(folder / "c.png").string(), "Title",  "rows",   "columns", {"a"},
+                  {"1", "2", "3", "4"},        "within", "beyond", "failed",  {}};
+  chart.panels.push_back({"panel",
+                          {{Cell::Kind::within, -2, "0.1 %"},
+                           {Cell::Kind::beyond, 5, "1e+06 %"},
+                           {Cell::Kind::failed, 0, "unstable"},
+                           {Cell::Kind::blank, 0, "-"}}});
+  Notes notes;
+  const auto files = render({{}, {}, {chart}}, notes.progress);
+  EXPECT_EQ(notes.out.str(), "");
+  ASSERT_EQ(files.size(), 1u);
+  const Seen one(files[0]);
+  for (const std::array<int, 3>& colour : {std::array{86, 158, 220}, std::array{226, 110, 40},
+                                           std::array{52, 48, 62}, std::array{236, 236, 236}})
+    EXPECT_TRUE(one.colours.contains(colour)) << colour[0];
+
+  // Panels stand beside each other as long as there is room, then below.
+  chart.panels.resize(3, chart.panels.front());
+  ASSERT_EQ(render({{}, {}, {chart}}, notes.progress).size(), 1u);
+  const Seen beside(files[0]);
+  EXPECT_EQ(beside.height, one.height);
+  EXPECT_GT(beside.width, one.width);
+  chart.panels.resize(9, chart.panels.front());
+  ASSERT_EQ(render({{}, {}, {chart}}, notes.progress).size(), 1u);
+  const Seen below(files[0]);
+  EXPECT_GT(below.height, one.height);
+  EXPECT_LE(below.width, 2400);
+}
+
 } // namespace
 } // namespace tessera::post

@@ -29,6 +29,17 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   job.drawings = {drawing};
   job.plots = {
       {"p.png", {{"t", "x", "y", true, false, {{"c", {1, 2}, {NAN, 4}, true, true, true, 3, 2}}}}, true}};
+  job.cell_charts = {
+      {"m.png",
+       "t",
+       "r",
+       "c",
+       {"a"},
+       {"b", "d"},
+       "good",
+       "poor",
+       "bad",
+       {{"p", {{CellChart::Cell::Kind::within, -1.5, "1 %"}, {CellChart::Cell::Kind::failed, 0, "x"}}}}}};
   const RenderJob read = render_job_from_json(to_json(job));
   const Drawing& d = read.drawings.at(0);
   EXPECT_EQ(d.file, drawing.file);
@@ -63,6 +74,21 @@ TEST(RenderJob, RoundTripKeepsEverything) {
   EXPECT_TRUE(chart.curves.at(0).dots);
   EXPECT_EQ(chart.curves.at(0).colour, 3);
   EXPECT_EQ(chart.curves.at(0).marker, 2);
+  const CellChart& cells = read.cell_charts.at(0);
+  EXPECT_EQ(cells.row_title, "r");
+  EXPECT_EQ(cells.column_title, "c");
+  EXPECT_EQ(cells.columns, (std::vector<std::string>{"b", "d"}));
+  EXPECT_EQ(cells.beyond, "poor");
+  EXPECT_EQ(cells.panels.at(0).title, "p");
+  EXPECT_EQ(cells.panels.at(0).cells.at(0).kind, CellChart::Cell::Kind::within);
+  EXPECT_EQ(cells.panels.at(0).cells.at(0).decades, -1.5);
+  EXPECT_EQ(cells.panels.at(0).cells.at(1).words, "x");
+}
+
+TEST(RenderJob, CellsThatDoNotFillTheirRowsAreRefused) {
+  RenderJob job;
+  job.cell_charts = {{"m.png", "t", "r", "c", {"a"}, {"b", "d"}, "", "", "", {{"p", {{}}}}}};
+  EXPECT_THROW(render_job_from_json(to_json(job)), InputError);
 }
 
 TEST(RenderJob, OtherTextIsRefused) {
