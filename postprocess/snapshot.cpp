@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 namespace tessera::post {
 namespace {
@@ -46,11 +47,11 @@ std::vector<std::int32_t> within(const PointGrid& grid, const Vec3& point, doubl
 /// Among the particles near the point where they decide, else among all; empty outside the body.
 template <int D>
 std::optional<solver::Sampling> sampling_at(const Vec3& point, std::span<const Vec3> x,
-                                            const ParticleCloud& cloud, const PointGrid& grid) {
+                                            const ParticleCloud& cloud, const PointGrid& grid, double pitch) {
   // Where a ball holds more than 2 D particles, thrice it holds all that the nearest one's surroundings are
   // made of.
-  double ball = 1.2 * cloud.spacing;
-  while (ball < 10 * cloud.spacing && within(grid, point, ball).size() <= 2 * D)
+  double ball = 1.2 * pitch;
+  while (ball < 10 * pitch && within(grid, point, ball).size() <= 2 * D)
     ball *= 1.3;
   try {
     const auto near = within(grid, point, 3 * ball);
@@ -127,12 +128,14 @@ std::vector<std::optional<solver::Sampling>> samplings(const Snapshot& snapshot,
 
 std::vector<std::optional<solver::Sampling>> samplings(const ParticleCloud& cloud, std::span<const Vec3> x,
                                                        std::span<const Vec3> points) {
-  const PointGrid grid(x, 2 * cloud.spacing);
+  const double volume = std::accumulate(cloud.V.begin(), cloud.V.end(), 0.0);
+  const double pitch = std::pow(volume / static_cast<double>(x.size()), 1.0 / cloud.dimension);
+  const PointGrid grid(x, 2 * pitch);
   std::vector<std::optional<solver::Sampling>> out(points.size());
   for_each_uneven(static_cast<std::int64_t>(points.size()), [&](std::int64_t i) {
     const auto p = static_cast<std::size_t>(i);
-    out[p] = cloud.dimension == 3 ? sampling_at<3>(points[p], x, cloud, grid)
-                                  : sampling_at<2>(points[p], x, cloud, grid);
+    out[p] = cloud.dimension == 3 ? sampling_at<3>(points[p], x, cloud, grid, pitch)
+                                  : sampling_at<2>(points[p], x, cloud, grid, pitch);
   });
   return out;
 }
