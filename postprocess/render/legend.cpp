@@ -31,7 +31,10 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
   }
   canvas.text({left + 155, (low + high) / 2}, titled(quantity.label, unit.name),
               {.size = 28, .anchor = Anchor::centre, .upwards = true});
-  const auto extreme = [&](double value) { return fmt::format("{:.3g}", value * unit.factor); };
+  const auto extreme = [&](double value) {
+    return std::abs(value * unit.factor) < 999.5 ? fmt::format("{:.3g}", value * unit.factor)
+                                                 : figure(value * unit.factor);
+  };
   const std::string extremes = range.low == range.high
                                    ? fmt::format("{} everywhere", extreme(range.low))
                                    : fmt::format("from {} to {}", extreme(range.low), extreme(range.high));
