@@ -30,7 +30,7 @@ struct Grammar {
                    "Threads to use (all cores unless given); results do not depend on it")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
-    app.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    app.add_flag("--quiet", o.quiet, "Say nothing but errors, and what check and materials are asked for");
     app.add_flag("--json", o.json, "Print the result as JSON on standard output, and nothing else there");
     app.footer("Exit status: 0 good, 1 the run failed, 2 bad usage or input.");
     app.require_subcommand(1);

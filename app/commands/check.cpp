@@ -25,7 +25,7 @@ void check(const Options& options) {
     outlook.sets.push_back(set.name);
   if (the_case.has_scene)
     outlook.forecast = solver::forecast(scene_with_surfaces(the_case, console), prepared.cloud);
-  console.result(outlook_text(the_case, outlook), outlook_json(the_case, outlook));
+  console.answer(outlook_text(the_case, outlook), outlook_json(the_case, outlook));
 }
 
 } // namespace tessera::app

@@ -164,6 +164,8 @@ TEST(Output, CheckWritesNothing) {
   const auto before = place.listing();
   const Result text = place.tessera({"check", "case.toml", "--quiet"});
   EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  EXPECT_TRUE(text.out.starts_with("small box\n")) << "what was asked for is no chatter: " << text.out;
   const Result json = place.tessera({"check", "case.toml", "--json", "--threads", "1"});
   EXPECT_EQ(json.status, 0) << json.err;
   EXPECT_EQ(place.listing(), before);
