@@ -79,8 +79,10 @@ preprocess::GeometrySource read_geometry(Table geometry, const fs::path& case_fo
   if (geometry.has("shape") && geometry.has("file"))
     geometry.refuse("shape", fmt::format("{} has both file and shape", geometry.path()), "give one of them");
   if (geometry.has("shape") && geometry.has("unit"))
-    geometry.refuse("unit", fmt::format("{} stands beside a shape, whose lengths are in metres", geometry.path_of("unit")),
-                    "leave it out, and give the lengths in metres");
+    geometry.refuse(
+        "unit",
+        fmt::format("{} stands beside a shape, whose lengths are in metres", geometry.path_of("unit")),
+        "leave it out, and give the lengths in metres");
   geometry.finish();
   if (source.shape)
     return source;

@@ -25,8 +25,9 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
   std::vector<double> support = distance_to_nearest(X, neighbours, hidden);
   for (std::size_t a = 0; a < support.size(); ++a) {
     require(std::isfinite(support[a]),
-            fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m sees fewer than {} others past slots and holes",
-                        a, X[a][0], X[a][1], X[a][2], neighbours),
+            fmt::format(
+                "particle {} at ({:.4g}, {:.4g}, {:.4g}) m sees fewer than {} others past slots and holes", a,
+                X[a][0], X[a][1], X[a][2], neighbours),
             "solver.neighbours", "ask for fewer, or for more particles");
     support[a] *= 1.02;
   }

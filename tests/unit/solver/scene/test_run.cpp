@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "solver/scene/forecast.hpp"
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
 
