@@ -55,6 +55,9 @@ struct Grammar {
       command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
           ->type_name("CASE.toml")
           ->required();
+    check_command->add_flag(
+        "--explain", o.explain,
+        "Also say what was chosen for the case (formulation, dissipation, step ...) and why");
     study_command->add_option("study", o.case_file, "Study file, or the folder that holds study.toml")
         ->type_name("STUDY.toml")
         ->required();

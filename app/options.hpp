@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string> sections;      ///< compare: "x0,y0,z0:x1,y1,z1", m
   bool reference = false;                 ///< compare: sections of the body as it was
   bool pictures = true;                   ///< run: draw and write the report
+  bool explain = false;                   ///< check: also what was chosen, and why
   bool retry = false;                     ///< study: also what failed before
   std::vector<double> stretch;            ///< stability: along X, Y and Z; empty: undeformed
   bool hyperbolicity = false;             ///< materials: where their waves are real

@@ -197,7 +197,7 @@ struct Outputs {
   std::function<void(const std::vector<std::string>& columns)> history_columns;
   std::function<void(const std::vector<double>& row)> history_row;
   /// Asked after every step; the run ends where it says so, and its Summary is of what there is.
-  std::function<bool(double time, std::int64_t steps)> enough;
+  std::function<bool(double time, std::int64_t steps)> enough{};
 };
 
 /// The formulation a scene is run in: "auto" means {p, F}, and {p, F, J} from a Poisson's ratio of 0.49 on.
