@@ -83,7 +83,8 @@ SceneSpec elastic() {
 }
 
 void expect_said(const Memory& memory) {
-  EXPECT_NEAR(memory.said / memory.measured, 1, 0.02) << memory.said << " said, " << memory.measured << " measured";
+  EXPECT_NEAR(memory.said / memory.measured, 1, 0.02)
+      << memory.said << " said, " << memory.measured << " measured";
 }
 
 TEST(UnusedParts, TakeNoMemoryAndCheckSaysWhatIsTaken) {
@@ -130,10 +131,12 @@ TEST(UnusedParts, WallsAndLoadsHaveArraysOnlyWhereThereAreSome) {
   EXPECT_NEAR(rough.measured - wall.measured, sizeof(Vec3) + sizeof(double), 1);
 
   scene = free;
-  scene.boundary = {{BoundaryCondition::Kind::traction, "top", {}, {Expression("1"), Expression("0"), Expression("0")}}};
+  scene.boundary = {
+      {BoundaryCondition::Kind::traction, "top", {}, {Expression("1"), Expression("0"), Expression("0")}}};
   const Memory loaded = memory_of<PF<3>, NoDissipation>(scene, cloud);
   expect_said(loaded);
-  EXPECT_NEAR(loaded.measured - alone.measured, 3 * sizeof(Vec3), 8) << "impulses, forces, reference positions";
+  EXPECT_NEAR(loaded.measured - alone.measured, 3 * sizeof(Vec3), 8)
+      << "impulses, forces, reference positions";
 
   scene.boundary = {{BoundaryCondition::Kind::fixed, "base"}};
   expect_said(memory_of<PF<3>, NoDissipation>(scene, cloud));
@@ -155,11 +158,17 @@ TEST(UnusedParts, PlaneBodiesHoldVectorsAndTensorsOfThePlane) {
 }
 
 template <class Fields>
-concept HasF = requires(Fields fields) { fields.F; };
+concept HasF = requires(Fields fields) {
+  fields.F;
+};
 template <class Fields>
-concept HasH = requires(Fields fields) { fields.H; };
+concept HasH = requires(Fields fields) {
+  fields.H;
+};
 template <class Fields>
-concept HasJ = requires(Fields fields) { fields.J; };
+concept HasJ = requires(Fields fields) {
+  fields.J;
+};
 static_assert(!HasF<Displacement<3>> && !HasH<PF<3>> && !HasJ<PF<3>> && !HasH<PFJ<3>> && HasJ<PFJ<3>>);
 static_assert(std::is_empty_v<NoDissipation> && std::is_empty_v<NoDissipation::Sum>);
 static_assert(std::is_empty_v<Hencky::History>);
@@ -193,7 +202,9 @@ class Counted final : public Material<3> {
     return inner_->energy(strain, a);
   }
   double plastic_work(std::int64_t a) const override { return inner_->plastic_work(a); }
-  double equivalent_plastic_strain(std::int64_t a) const override { return inner_->equivalent_plastic_strain(a); }
+  double equivalent_plastic_strain(std::int64_t a) const override {
+    return inner_->equivalent_plastic_strain(a);
+  }
   std::size_t history_bytes() const override { return inner_->history_bytes(); }
 
  private:
