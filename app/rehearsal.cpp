@@ -13,7 +13,8 @@
 namespace tessera::app {
 namespace {
 
-constexpr double budget = 3; ///< processor time of all runs together, s
+constexpr double budget = 3;           ///< processor time of all runs together, s
+constexpr double coarsest_finesse = 2; ///< two particles an edge: nothing to squeeze between them
 
 /// What the steps of a run need: nothing is looked at.
 solver::SceneSpec unobserved(solver::SceneSpec scene) {
@@ -116,20 +117,17 @@ Rehearsed run_once(const solver::SceneSpec& scene, const ParticleCloud& cloud, d
 } // namespace
 
 double expected_slowing(const std::vector<Rehearsed>& runs, double finesse) {
-  double weight = 0, x = 0, y = 0, xx = 0, xy = 0;
+  double n = 1, x = coarsest_finesse, y = 1, xx = x * x, xy = x;
   for (const Rehearsed& run : runs) {
-    const auto w = static_cast<double>(run.particles);
-    weight += w;
-    x += w * run.finesse;
-    y += w * run.slowing;
-    xx += w * run.finesse * run.finesse;
-    xy += w * run.finesse * run.slowing;
+    n += 1;
+    x += run.finesse;
+    y += run.slowing;
+    xx += run.finesse * run.finesse;
+    xy += run.finesse * run.slowing;
   }
-  if (weight == 0)
-    return 1;
-  const double spread = xx / weight - x / weight * x / weight;
-  const double slope = spread > 0 ? (xy / weight - x / weight * y / weight) / spread : 0;
-  return std::max(1.0, y / weight + slope * (finesse - x / weight));
+  const double spread = xx / n - x / n * x / n;
+  const double slope = spread > 0 ? (xy / n - x / n * y / n) / spread : 0;
+  return std::max(1.0, y / n + slope * (finesse - x / n));
 }
 
 Rehearsal rehearse(const Case& the_case, const solver::SceneSpec& scene, const preprocess::Domain& domain,

@@ -39,7 +39,8 @@ struct Rehearsal {
 Rehearsal rehearse(const Case& the_case, const solver::SceneSpec& scene, const preprocess::Domain& domain,
                    const ParticleCloud& cloud, const solver::Forecast& forecast, Progress& progress);
 
-/// The line of least squares through the runs, at `finesse`: at least 1. Finer runs count more.
+/// The line of least squares through the runs and a slowing of 1 at two particles an edge, at `finesse`: at
+/// least 1. That end keeps the line from following the scatter of a few coarse clouds.
 double expected_slowing(const std::vector<Rehearsed>& runs, double finesse);
 
 } // namespace tessera::app

@@ -10,7 +10,7 @@ namespace tessera::app {
 namespace {
 
 /// Frames are written to a folder that is gone again, to see what they cost.
-solver::Forecast forecast(const solver::SceneSpec& scene, const ParticleCloud& cloud) {
+solver::Forecast forecast_with_frames(const solver::SceneSpec& scene, const ParticleCloud& cloud) {
   const TemporaryFolder nowhere;
   io::FrameSeries series(nowhere.path());
   solver::Outputs outputs;
@@ -40,7 +40,7 @@ void check(const Options& options) {
   if (the_case.has_scene) {
     const solver::SceneSpec scene = scene_with_surfaces(the_case, console);
     outlook.setup_seconds = spent_so_far();
-    outlook.forecast = forecast(scene, prepared.cloud);
+    outlook.forecast = forecast_with_frames(scene, prepared.cloud);
     outlook.setup_seconds += outlook.forecast->setup_seconds;
     outlook.rehearsal =
         rehearse(the_case, scene, domain, prepared.cloud, *outlook.forecast, console.progress());

@@ -158,7 +158,7 @@ Reasoned choice_of_step(const BodyTraits& body, const Forecast& f) {
       step.critical, step.frequency, step.decay, 100 * elastic, 100 * (1 - elastic));
   const std::string wave = fmt::format("wave {:.4g} s: {:.4g} m at {:.6g} m/s", step.by_wave,
                                        body.smallest_distance, body.smallest_distance / step.by_wave);
-  return {what, critical ? fmt::format("{} ({})", spectrum, wave) : fmt::format("{} ({})", wave, spectrum)};
+  return {what, critical ? spectrum + "; " + wave : wave + "; " + spectrum};
 }
 
 } // namespace

@@ -17,13 +17,15 @@ TEST(Rehearsal, WithoutOneTheFirstStepStands) {
   EXPECT_EQ(expected_slowing({}, 10), 1);
 }
 
-TEST(Rehearsal, OneRunIsTakenAsItIs) {
-  EXPECT_DOUBLE_EQ(expected_slowing({run(100, 4.6, 1.7)}, 20), 1.7);
+TEST(Rehearsal, SlowingGrowsAlongALineFromTwoParticlesAnEdge) {
+  EXPECT_NEAR(expected_slowing({run(125, 5, 2.5)}, 5), 2.5, 1e-12);
+  EXPECT_NEAR(expected_slowing({run(125, 5, 2.5)}, 20), 10, 1e-12);
+  EXPECT_NEAR(expected_slowing({run(125, 5, 2.5), run(1000, 10, 5)}, 20), 10, 1e-12);
 }
 
-TEST(Rehearsal, SlowingGrowsAlongALine) {
-  EXPECT_NEAR(expected_slowing({run(125, 5, 2), run(1000, 10, 4)}, 20), 8, 1e-12);
-  EXPECT_NEAR(expected_slowing({run(125, 5, 2), run(343, 7, 2.8), run(1000, 10, 4)}, 20), 8, 1e-12);
+TEST(Rehearsal, BetweenRunsThatDisagreeItIsTheLineOfLeastSquares) {
+  // (2, 1), (4, 3), (6, 2): mean (4, 2), slope 1/4.
+  EXPECT_NEAR(expected_slowing({run(64, 4, 3), run(216, 6, 2)}, 12), 4, 1e-12);
 }
 
 TEST(Rehearsal, NoRunTakesFewerStepsThanTheFirstOneWouldMake) {
