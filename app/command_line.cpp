@@ -30,7 +30,7 @@ struct Grammar {
                    "Threads to use (all cores unless given); results do not depend on it")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
-    app.add_flag("--quiet", o.quiet, "Say nothing but errors");
+    app.add_flag("--quiet", o.quiet, "Say nothing but errors, and what check and materials are asked for");
     app.add_flag("--json", o.json, "Print the result as JSON on standard output, and nothing else there");
     app.footer("Exit status: 0 good, 1 the run failed, 2 bad usage or input.");
     app.require_subcommand(1);
@@ -55,6 +55,9 @@ struct Grammar {
       command->add_option("case", o.case_file, "Case file, or the folder that holds case.toml")
           ->type_name("CASE.toml")
           ->required();
+    check_command->add_flag(
+        "--explain", o.explain,
+        "Also say what was chosen for the case (formulation, dissipation, step ...) and why");
     study_command->add_option("study", o.case_file, "Study file, or the folder that holds study.toml")
         ->type_name("STUDY.toml")
         ->required();

@@ -13,8 +13,11 @@ Console::Console(const Options& options)
       progress_(std::cerr, ::isatty(STDERR_FILENO) != 0, options.quiet) {}
 
 void Console::result(std::string_view text, std::string_view json) const {
-  if (!json_ && quiet_)
-    return;
+  if (json_ || !quiet_)
+    answer(text, json);
+}
+
+void Console::answer(std::string_view text, std::string_view json) const {
   const std::string_view shown = json_ ? json : text;
   std::cout << shown;
   if (!shown.ends_with('\n'))

@@ -13,9 +13,11 @@ class Console {
   explicit Console(const Options& options);
   Progress& progress() { return progress_; }
 
-  /// Prints `json` when machine output was asked for, else `text` (nothing when quiet).
-  /// RunError when standard output cannot be written.
+  /// What a command did, which its files tell too: prints `json` when machine output was asked for, else
+  /// `text` (nothing when quiet). RunError when standard output cannot be written.
   void result(std::string_view text, std::string_view json) const;
+  /// What a command that writes no files was asked for: as result(), when quiet too.
+  void answer(std::string_view text, std::string_view json) const;
 
  private:
   bool quiet_, json_;

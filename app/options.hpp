@@ -25,6 +25,7 @@ struct Options {
   double magnify = 1;                     ///< compare: times as large displacements are drawn
   bool reference = false;                 ///< compare: sections of the body as it was
   bool pictures = true;                   ///< run: draw and write the report
+  bool explain = false;                   ///< check: also what was chosen, and why
   bool retry = false;                     ///< study: also what failed before
   std::vector<double> stretch;            ///< stability: along X, Y and Z; empty: undeformed
   bool hyperbolicity = false;             ///< materials: where their waves are real

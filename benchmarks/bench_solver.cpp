@@ -8,6 +8,7 @@
 #include "solver/operators/gradient.hpp"
 #include "solver/operators/laplacian.hpp"
 #include "solver/operators/support.hpp"
+#include "solver/scene/forecast.hpp"
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
 #include "tests/support/domains.hpp"

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
+#include <chrono>
 #include <fstream>
 #include <string>
 
@@ -14,6 +15,10 @@ double seconds(const timeval& t) {
 }
 
 } // namespace
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double cpu_seconds() {
   timespec t{};

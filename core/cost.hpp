@@ -6,6 +6,9 @@
 
 namespace tessera {
 
+/// Seconds by the clock since some fixed instant.
+double wall_seconds();
+
 /// Processor seconds of this process, all threads together, since it began.
 double cpu_seconds();
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -78,8 +79,12 @@ std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const Hi
         if (r <= radius && b != a && !hidden.contains(a, b))
           near.push_back(r);
       });
-      if (near.size() < static_cast<std::size_t>(k))
-        continue;
+      if (near.size() < static_cast<std::size_t>(k)) {
+        if (radius < extent.norm())
+          continue;
+        distance[i] = std::numeric_limits<double>::infinity();
+        return;
+      }
       std::nth_element(near.begin(), near.begin() + (k - 1), near.end());
       distance[i] = near[k - 1];
       return;

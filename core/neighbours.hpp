@@ -32,7 +32,7 @@ struct Neighbours {
 Neighbours find_neighbours(std::span<const Vec3> X, std::vector<double> support,
                            const HiddenPairs& hidden = {});
 
-/// Each particle's distance to the k-th nearest of the others it sees, m. Everybody must see k others.
+/// Each particle's distance to the k-th nearest of the others it sees, m; infinite where it sees fewer.
 std::vector<double> distance_to_nearest(std::span<const Vec3> X, int k, const HiddenPairs& hidden = {});
 
 /// The same for the particles listed only, in their order.

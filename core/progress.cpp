@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -51,6 +52,7 @@ void Progress::begin(std::string_view label, double total) {
   total_ = total;
   start_ = last_print_ = clock_();
   last_tenth_ = 0;
+  half_ = mark_ = {};
 }
 
 void Progress::advance(double done, std::string_view detail) {
@@ -58,14 +60,18 @@ void Progress::advance(double done, std::string_view detail) {
     return;
   const double fraction = std::clamp(done / total_, 0.0, 1.0);
   const double now = clock_();
+  const double elapsed = now - start_;
+  if (elapsed >= 2 * mark_.elapsed)
+    half_ = std::exchange(mark_, {elapsed, fraction});
   const int tenth = static_cast<int>(fraction * 10);
   const bool due = terminal_ ? now - last_print_ >= 0.25 : tenth > last_tenth_ && now - last_print_ >= 2.0;
   if (!due)
     return;
   last_print_ = now;
   last_tenth_ = tenth;
-  const double elapsed = now - start_;
-  const std::string left = fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) : "unknown";
+  const double done_since = fraction - half_.fraction;
+  const std::string left =
+      done_since > 0 ? duration((elapsed - half_.elapsed) * (1 - fraction) / done_since) : "unknown";
   const std::string line = fmt::format("{} {:3.0f} %, {} left{}{}", label_, 100 * fraction, left,
                                        detail.empty() ? "" : ", ", detail);
   if (terminal_) {

@@ -29,7 +29,8 @@ class Progress {
   void begin(std::string_view label, double total);
 
   /// `done` of the units are done. Prints at most four times a second on a terminal, at each tenth of the
-  /// work (not more often than every two seconds) elsewhere.
+  /// work (not more often than every two seconds) elsewhere. The time left goes by the later half of the time
+  /// so far: runs become slower as their steps shrink.
   void advance(double done, std::string_view detail = {});
 
   /// Ends the piece of work with a line that says how long it took.
@@ -47,6 +48,10 @@ class Progress {
   double total_ = 0;
   double start_ = 0;
   double last_print_ = 0;
+  struct Mark {
+    double elapsed = 0, fraction = 0;
+  };
+  Mark half_, mark_; ///< the first lies before half of the time that has elapsed, the second after it
   int last_tenth_ = 0;
 };
 

@@ -78,6 +78,11 @@ preprocess::GeometrySource read_geometry(Table geometry, const fs::path& case_fo
   source.bytes = static_cast<std::uint64_t>(geometry.number_or("memory_limit", 4, memory_size) * 0x1p30);
   if (geometry.has("shape") && geometry.has("file"))
     geometry.refuse("shape", fmt::format("{} has both file and shape", geometry.path()), "give one of them");
+  if (geometry.has("shape") && geometry.has("unit"))
+    geometry.refuse(
+        "unit",
+        fmt::format("{} stands beside a shape, whose lengths are in metres", geometry.path_of("unit")),
+        "leave it out, and give the lengths in metres");
   geometry.finish();
   if (source.shape)
     return source;

@@ -29,7 +29,7 @@ std::array<std::string, 3> spin_formulas(const Vec3& omega, const Vec3& centre) 
 Expression parse(const Table& table, const std::string& key, const std::string& place,
                  const std::string& formula) {
   try {
-    return Expression(formula);
+    return Expression(formula, fmt::format("{}, {}", table.path_of(place), table.place_of(place)));
   } catch (const InputError& e) {
     table.refuse(
         place, fmt::format("{}: {}", table.path_of(key), e.what()),

@@ -17,7 +17,9 @@ std::string type_name(const toml::node& node) {
   case toml::node_type::table:
     return "a table";
   case toml::node_type::array:
-    return node.is_array_of_tables() ? "a list of tables" : "a list";
+    if (node.is_array_of_tables())
+      return "a list of tables";
+    return node.as_array()->empty() ? "an empty list" : fmt::format("a list of {}", node.as_array()->size());
   case toml::node_type::string:
     return "text in quotes";
   case toml::node_type::integer:

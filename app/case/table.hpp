@@ -97,6 +97,8 @@ class Table {
   bool is_overridden(const std::string& key) const { return document_->is_overridden(path_of(key)); }
   const std::string& path() const { return path_; }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  /// file:line:column of a key, or the argument that sets it.
+  std::string place_of(const std::string& key) const { return document_->where(path_of(key)); }
   std::string where() const { return document_->where(path_); }
 
  private:

@@ -1,10 +1,24 @@
 #include "app/commands/commands.hpp"
 #include "app/console.hpp"
+#include "app/outlook.hpp"
 #include "app/stages.hpp"
-#include "app/summary.hpp"
 #include "core/interrupt.hpp"
+#include "core/temporary_folder.hpp"
+#include "io/field_series.hpp"
 
 namespace tessera::app {
+namespace {
+
+/// Frames are written to a folder that is gone again, to see what they cost.
+solver::Forecast forecast_with_frames(const solver::SceneSpec& scene, const ParticleCloud& cloud) {
+  const TemporaryFolder nowhere;
+  io::FrameSeries series(nowhere.path());
+  solver::Outputs outputs;
+  outputs.frame = [&](const Frame& frame) { series.write(frame); };
+  return solver::forecast(scene, cloud, outputs);
+}
+
+} // namespace
 
 void check(const Options& options) {
   Console console(options);
@@ -23,9 +37,16 @@ void check(const Options& options) {
   outlook.spacing = prepared.cloud.spacing;
   for (const ParticleSet& set : prepared.cloud.sets)
     outlook.sets.push_back(set.name);
-  if (the_case.has_scene)
-    outlook.forecast = solver::forecast(scene_with_surfaces(the_case, console), prepared.cloud);
-  console.result(outlook_text(the_case, outlook), outlook_json(the_case, outlook));
+  if (the_case.has_scene) {
+    const solver::SceneSpec scene = scene_with_surfaces(the_case, console);
+    outlook.setup_seconds = spent_so_far();
+    outlook.forecast = forecast_with_frames(scene, prepared.cloud);
+    outlook.setup_seconds += outlook.forecast->setup_seconds;
+    outlook.rehearsal =
+        rehearse(the_case, scene, domain, prepared.cloud, *outlook.forecast, console.progress());
+  }
+  console.answer(outlook_text(the_case, outlook, options.explain),
+                 outlook_json(the_case, outlook, options.explain));
 }
 
 } // namespace tessera::app

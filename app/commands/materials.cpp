@@ -92,7 +92,7 @@ void materials(const Options& options) {
   if (options.hyperbolicity)
     hyperbolicity(options, console);
   else
-    console.result(catalogue_text(), catalogue_json());
+    console.answer(catalogue_text(), catalogue_json());
 }
 
 } // namespace tessera::app

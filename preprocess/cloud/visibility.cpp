@@ -208,13 +208,14 @@ void look_around(const Domain& domain, int neighbours, double reach, ParticleClo
   const double margin = reach > 0 ? reach : 1.5;
   const int others = static_cast<int>(std::min<std::int64_t>(neighbours, cloud.size() - 1));
   cloud.sight.assign(cloud.X.size(), 0);
+  const double across = (domain.upper - domain.lower).norm(); // beyond which there is nobody to see
   // Whoever loses neighbours to a slot looks farther along its own side, which may reveal more of them.
   for (int round = 0; round < 4 && !from.empty(); ++round) {
     const std::vector<double> visible = distance_to_nearest(cloud.X, others, cloud.hidden, from);
     std::vector<std::int32_t> farther;
     for (std::size_t i = 0; i < from.size(); ++i)
-      if (double& sight = cloud.sight[from[i]]; margin * visible[i] > sight) {
-        sight = margin * visible[i];
+      if (const double wanted = margin * std::min(visible[i], across); wanted > cloud.sight[from[i]]) {
+        cloud.sight[from[i]] = wanted;
         farther.push_back(from[i]);
       }
     from = std::move(farther);

@@ -12,7 +12,7 @@ namespace tessera::solver {
 
 template <int D>
 struct Conditions {
-  std::vector<Vec3> X; ///< reference positions, m
+  std::vector<Vec3> X; ///< reference positions, m; empty without loads
   HeldVelocities<D> held;
   std::vector<std::unique_ptr<Load<D>>> loads;
   std::vector<Wall<D>> walls;

@@ -75,6 +75,12 @@ class Wall {
   const std::string& name() const { return name_; }
   const ContactLaw& law() const { return law_; }
 
+  /// Memory, a particle.
+  std::size_t bytes() const {
+    return (dragged_.empty() ? 1 : 2) * sizeof(Vec<D>) + (incoming_.empty() ? 0 : sizeof(double)) +
+           (seen_.empty() ? 0 : sizeof(Seen));
+  }
+
   /// Distance of x from the tool at a time, negative inside it, m.
   double distance(const Vec<D>& x, double time) const {
     return shape_->gap(in_space(x - time * velocity_)).distance;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace tessera::solver {
 
 Neighbours uniform_support(std::span<const Vec3> X, double radius, const HiddenPairs& hidden) {
@@ -21,8 +23,14 @@ Neighbours adaptive_support(std::span<const Vec3> X, std::span<const double> V, 
   constexpr double ill_conditioned = 1e3;
   // The kernel vanishes at its radius: a little beyond the last neighbour, so that it counts.
   std::vector<double> support = distance_to_nearest(X, neighbours, hidden);
-  for (double& radius : support)
-    radius *= 1.02;
+  for (std::size_t a = 0; a < support.size(); ++a) {
+    require(std::isfinite(support[a]),
+            fmt::format(
+                "particle {} at ({:.4g}, {:.4g}, {:.4g}) m sees fewer than {} others past slots and holes", a,
+                X[a][0], X[a][1], X[a][2], neighbours),
+            "solver.neighbours", "ask for fewer, or for more particles");
+    support[a] *= 1.02;
+  }
   for (int round = 0; round < 10; ++round) {
     Neighbours found = find_neighbours(X, support, hidden);
     std::vector<std::uint8_t> grow(X.size(), 0);

@@ -15,6 +15,7 @@ struct DissipationDefaults {
   static constexpr bool nets_J = false;       ///< and does not keep sum V J by itself
   static constexpr bool sweeps_first = false; ///< it has something to gather in the first sweep
   static constexpr std::size_t edge_bytes = 0, particle_bytes = 0;
+  static constexpr std::size_t sensor_bytes = 0; ///< a particle, beside those, where there is a shock term
 
   struct Sum {};
 

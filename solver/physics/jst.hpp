@@ -20,7 +20,8 @@ template <int D>
 struct Jst : DissipationDefaults {
   static constexpr bool active = true, sweeps_first = true;
   static constexpr std::size_t edge_bytes = sizeof(double),
-                               particle_bytes = 2 * sizeof(double) + sizeof(Vec<D>);
+                               particle_bytes = 2 * sizeof(double) + sizeof(Vec<D>),
+                               sensor_bytes = sizeof(double);
 
   Laplacian laplacian{};
   double delta = 1; ///< Delta, m

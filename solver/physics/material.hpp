@@ -42,11 +42,11 @@ template <int D, ConstitutiveLaw Law>
 class MaterialOf final : public Material<D> {
  public:
   MaterialOf(Law law, std::int64_t particles)
-      : law_(std::move(law)), history_(static_cast<std::size_t>(particles)) {}
+      : law_(std::move(law)), history_(remembers ? static_cast<std::size_t>(particles) : 1) {}
 
   void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const override {
     for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
-      typename Law::History trial = history_[a];
+      typename Law::History trial = history(a);
       P[a] = law_.piola(strains[a], trial).template topLeftCorner<D, D>();
     });
   }
@@ -54,7 +54,7 @@ class MaterialOf final : public Material<D> {
   void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) override {
     for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
       const Strain strain = strains[a];
-      P[a] = law_.piola(strain, history_[a]).template topLeftCorner<D, D>();
+      P[a] = law_.piola(strain, history(a)).template topLeftCorner<D, D>();
       wave_moduli[a] = step_wave_modulus(law_, strain);
     });
   }
@@ -63,30 +63,38 @@ class MaterialOf final : public Material<D> {
                      std::span<Mat<D>> dP) const override {
     for_each(static_cast<std::int64_t>(dP.size()), [&](std::int64_t a) {
       dP[a] =
-          differential(law_, history_[a], strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
+          differential(law_, history(a), strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
     });
   }
 
   ElasticConstants linearised() const override { return law_.linearised(); }
 
   Mat3 piola(const Strain& strain, std::int64_t a) const override {
-    typename Law::History trial = history_[a];
+    typename Law::History trial = history(a);
     return law_.piola(strain, trial);
   }
   double energy(const Strain& strain, std::int64_t a) const override {
-    return law_.energy(strain, history_[a]);
+    return law_.energy(strain, history(a));
   }
-  double plastic_work(std::int64_t a) const override { return solver::plastic_work(law_, history_[a]); }
+  double plastic_work(std::int64_t a) const override { return solver::plastic_work(law_, history(a)); }
   double equivalent_plastic_strain(std::int64_t a) const override {
-    return solver::equivalent_plastic_strain(law_, history_[a]);
+    return solver::equivalent_plastic_strain(law_, history(a));
   }
-  std::size_t history_bytes() const override {
-    return std::is_empty_v<typename Law::History> ? 0 : sizeof(typename Law::History);
-  }
+  std::size_t history_bytes() const override { return remembers ? sizeof(typename Law::History) : 0; }
 
  private:
+  static constexpr bool remembers = !std::is_empty_v<typename Law::History>;
+
+  typename Law::History& history(std::int64_t a) {
+    return history_[remembers ? static_cast<std::size_t>(a) : 0];
+  }
+  const typename Law::History& history(std::int64_t a) const {
+    return history_[remembers ? static_cast<std::size_t>(a) : 0];
+  }
+
   Law law_;
-  std::vector<typename Law::History> history_; ///< as of the last commit
+  std::vector<typename Law::History>
+      history_; ///< as of the last commit; one for all where nothing is remembered
 };
 
 } // namespace tessera::solver

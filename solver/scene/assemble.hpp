@@ -48,6 +48,11 @@ StepLimit<Body> make_limit(const SceneSpec& scene, double smallest) {
   return {smallest, chosen_cfl(scene), Body::dissipates ? enough : 0};
 }
 
+inline StepChoice step_choice(const StepBounds& bounds) {
+  return {bounds.by_wave, bounds.critical, bounds.critical_binds ? "critical" : "wave", bounds.frequency,
+          bounds.decay};
+}
+
 /// Calls use(assembly): a body is built where it stays.
 template <class Formulation, class Dissipation, class Use>
 auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
@@ -85,33 +90,47 @@ auto with_assembly(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use
       scene, [&]<class Dissipation>() { return assemble<Formulation, Dissipation>(scene, cloud, use); });
 }
 
+/// What decides the memory of a body beside the types it is made of.
+struct MemoryNeeds {
+  double neighbours = 0;         ///< mean
+  std::size_t history_bytes = 0; ///< a particle, of the material
+  std::size_t outside_bytes = 0; ///< a particle, of walls, loads and moving boundaries
+  bool shocks = false;           ///< the dissipation has a shock term
+};
+
 /// Memory of the arrays a step touches, bytes a particle.
 template <class Formulation, class Dissipation>
-double bytes_per_particle(double neighbours, std::size_t history_bytes, bool external) {
+double bytes_per_particle(const MemoryNeeds& needs) {
   constexpr std::size_t D = Formulation::dimension;
   constexpr std::size_t vector = sizeof(Vec<D>), tensor = sizeof(Mat<D>), number = sizeof(double);
   constexpr std::size_t state = 2 * vector + Formulation::evolves_F * tensor +
                                 Formulation::evolves_H * sizeof(Mat3) + Formulation::evolves_J * number;
-  const double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;
-  const double a_particle = sizeof(std::int64_t) + number           // row, support
-                            + number + vector                       // V, s
-                            + 3 * state                             // U, R and U^n
-                            + Formulation::evolves_J * number       // numerical changes of J
-                            + Formulation::evolves_H * sizeof(Mat3) // and H
-                            + !Formulation::evolves_F * tensor      // grad x
-                            + static_cast<double>(history_bytes)    //
-                            + tensor + vector                       // P, T
-                            + number + vector                       // wave, numerical impulse
-                            + (external ? vector : 0)               // impulse from outside
-                            + Dissipation::particle_bytes;          //
-  return an_edge * neighbours + a_particle;
+  constexpr double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;
+  constexpr std::size_t a_particle = sizeof(std::int64_t) + number           // row, support
+                                     + number + vector                       // V, s
+                                     + 3 * state                             // U, R and U^n
+                                     + Formulation::evolves_J * number       // numerical changes of J
+                                     + Formulation::evolves_H * sizeof(Mat3) // and H
+                                     + !Formulation::evolves_F * tensor      // grad x
+                                     + tensor + vector                       // P, T
+                                     + number + vector                       // wave, numerical impulse
+                                     + number + vector // of the critical step: stiffness, field
+                                     + Dissipation::of_J * number + Dissipation::particle_bytes;
+  return an_edge * needs.neighbours +
+         static_cast<double>(a_particle + needs.history_bytes + needs.outside_bytes +
+                             (needs.shocks ? Dissipation::sensor_bytes : 0));
 }
 
 template <class Body>
-double bytes_of(const Assembly<Body>& assembly) {
-  const Body& body = assembly.body;
-  return bytes_per_particle<typename Body::Formulation, decltype(body.dissipation)>(
-      body.neighbours.mean(), body.material->history_bytes(), assembly.step->works());
+MemoryNeeds memory_needs(const SceneSpec& scene, const Assembly<Body>& assembly) {
+  return {assembly.body.neighbours.mean(), assembly.body.material->history_bytes(),
+          assembly.step->outside_bytes(), scene.jst2 > 0};
+}
+
+template <class Body>
+double bytes_of(const SceneSpec& scene, const Assembly<Body>& assembly) {
+  return bytes_per_particle<typename Body::Formulation, decltype(assembly.body.dissipation)>(
+      memory_needs(scene, assembly));
 }
 
 } // namespace tessera::solver

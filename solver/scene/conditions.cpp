@@ -148,7 +148,8 @@ Conditions<D> make_conditions(const SceneSpec& scene, const ParticleCloud& cloud
       held.push_back(velocity_condition<D>(c, cloud));
   conditions.held = HeldVelocities<D>(held, cloud.X);
   conditions.walls = contact_walls<D>(scene, cloud, modulus, smallest);
-  conditions.X = cloud.X;
+  if (!conditions.loads.empty())
+    conditions.X = cloud.X;
   return conditions;
 }
 

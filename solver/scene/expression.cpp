@@ -6,6 +6,7 @@
 #include <muParser.h>
 
 #include <cmath>
+#include <utility>
 
 namespace tessera::solver {
 
@@ -14,7 +15,8 @@ struct Expression::Parser {
   mu::Parser parser;
 };
 
-Expression::Expression(const std::string& formula) : parser_(std::make_shared<Parser>()), formula_(formula) {
+Expression::Expression(const std::string& formula, std::string place)
+    : parser_(std::make_shared<Parser>()), formula_(formula), place_(std::move(place)) {
   try {
     parser_->parser.DefineVar("X", &parser_->X);
     parser_->parser.DefineVar("Y", &parser_->Y);
@@ -43,7 +45,7 @@ double Expression::operator()(const Vec3& X, double t) const {
   if (!std::isfinite(value))
     throw InputError(fmt::format("the formula \"{}\" is {} at ({:g}, {:g}, {:g}) m, {:g} s", formula_, value,
                                  X[0], X[1], X[2], t),
-                     "", "formulas must be finite at every particle and time they apply to");
+                     place_, "formulas must be finite at every particle and time they apply to");
   return value;
 }
 

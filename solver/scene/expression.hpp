@@ -14,8 +14,9 @@ namespace tessera::solver {
 /// parsed formula, so one object must not be evaluated from several threads at once.
 class Expression {
  public:
-  /// Parses and tries the formula; InputError with the position of the fault.
-  explicit Expression(const std::string& formula);
+  /// Parses and tries the formula; InputError with the position of the fault. `place`: where it is written,
+  /// for the message when its value makes no sense.
+  explicit Expression(const std::string& formula, std::string place = "");
 
   double operator()(const Vec3& X, double t = 0) const;
   /// Whether it says the same at every position.
@@ -25,7 +26,7 @@ class Expression {
  private:
   struct Parser;
   std::shared_ptr<Parser> parser_;
-  std::string formula_;
+  std::string formula_, place_;
 };
 
 /// Components of a vector.

@@ -58,9 +58,10 @@ Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& o
   });
 }
 
-Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud) {
-  return with_formulation(
-      scene, cloud, [&]<class Formulation>() { return forecast_formulation<Formulation>(scene, cloud); });
+Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs) {
+  return with_formulation(scene, cloud, [&]<class Formulation>() {
+    return forecast_formulation<Formulation>(scene, cloud, outputs);
+  });
 }
 
 StabilityFindings stability(const SceneSpec& scene, const ParticleCloud& cloud, const Vec3& stretch) {

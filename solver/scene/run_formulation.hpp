@@ -3,6 +3,7 @@
 
 #include "core/particle_cloud.hpp"
 #include "core/progress.hpp"
+#include "solver/scene/forecast.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/scene/stability.hpp"
 
@@ -13,9 +14,9 @@ template <class Formulation>
 Summary run_formulation(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
                         Progress& progress);
 
-/// As forecast() of scene.hpp.
+/// As forecast() of forecast.hpp.
 template <class Formulation>
-Forecast forecast_formulation(const SceneSpec& scene, const ParticleCloud& cloud);
+Forecast forecast_formulation(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs);
 
 /// As stability() of stability.hpp.
 template <class Formulation>

@@ -166,6 +166,7 @@ struct StepChoice {
   double by_wave = 0;  ///< smallest particle distance over the fastest wave, (3.93) with sigma = 1, s
   double critical = 0; ///< from which on the operators amplify some field, s
   std::string bound;   ///< which it was that gave the smaller step: "wave" or "critical"
+  double frequency = 0, decay = 0; ///< of the field the critical step belongs to, rad/s and 1/s
 };
 
 /// What a run came to; keys of summary.json carry the same names.
@@ -191,25 +192,13 @@ struct Summary {
   std::optional<ErrorNorms> error;
 };
 
-/// What a scene would need, found without running it.
-struct Forecast {
-  double mass = 0;       ///< kg
-  double wave_speed = 0; ///< pressure wave, undeformed, m/s
-  double dt = 0;         ///< first step, s
-  StepChoice step;
-  std::int64_t steps = 0; ///< end_time / dt: more when the body is compressed
-  double neighbours_mean = 0;
-  double bytes_per_particle = 0;
-  std::vector<std::pair<std::string, double>> bytes_by_formulation; ///< the same of every formulation
-  double seconds = 0; ///< estimated from a few steps actually taken
-  std::vector<std::string> modelled, left_out;
-};
-
 struct Outputs {
   std::function<void(const Frame&)> frame;
   /// Once before the first row.
   std::function<void(const std::vector<std::string>& columns)> history_columns;
   std::function<void(const std::vector<double>& row)> history_row;
+  /// Asked after every step; the run ends where it says so, and its Summary is of what there is.
+  std::function<bool(double time, std::int64_t steps)> enough{};
 };
 
 /// The formulation a scene is run in: "auto" means {p, F}, and {p, F, J} from a Poisson's ratio of 0.49 on.
@@ -236,7 +225,5 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
 /// non-finite value (naming particle, step and time) or on interruption, after handing out the last good
 /// frame.
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress);
-
-Forecast forecast(const SceneSpec& scene, const ParticleCloud& cloud);
 
 } // namespace tessera::solver

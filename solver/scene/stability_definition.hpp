@@ -40,7 +40,7 @@ StabilityFindings stability_formulation(const SceneSpec& scene, const ParticleCl
     findings.neighbours_mean = body.neighbours.mean();
     findings.dt = assembly.limit(body);
     const StepBounds bounds = assembly.limit.bounds(body);
-    findings.step = {bounds.by_wave, bounds.critical, bounds.critical_binds ? "critical" : "wave"};
+    findings.step = step_choice(bounds);
     findings.unknowns = (2 * D + Formulation::evolves_J) * body.size();
     if (findings.unknowns <= largest_matrix) {
       const std::vector<double> nearest = distance_to_nearest(cloud.X, 1, cloud.hidden);

@@ -26,6 +26,9 @@ class CriticalStep {
   static constexpr int D = Body::dimension;
 
   double value() const { return value_; } ///< s
+  /// Of the field found: Rayleigh's quotients sqrt(K), rad/s, and C, 1/s.
+  double frequency() const { return frequency_; }
+  double decay() const { return decay_; }
 
   /// Sweeps over all edges. U, P and R of the body are as before afterwards.
   void refine(Body& body, int sweeps) {
@@ -100,6 +103,8 @@ class CriticalStep {
     const double C_J = improve_J(body);
     const double dt = 4 / (C + C_J + std::sqrt((C - C_J) * (C - C_J) + 4 * K));
     value_ = dt;
+    frequency_ = std::sqrt(K);
+    decay_ = C;
     const double unit = 0.25 * std::sqrt(sums[3] / sums[0]);
     for_each(body.size(), [&](std::int64_t a) {
       field_[a] = -unit * (dt * dt * body.T[a] + 2 * dt * (body.R.p[a] - body.T[a]));
@@ -126,7 +131,7 @@ class CriticalStep {
   std::vector<double> field_J_; ///< of the volume map, that its dissipation takes first, of mean square 1
   std::vector<Vec<D>> field_;   ///< momenta that grow first, of mean square 1
   std::mt19937_64 random_{1};
-  double value_ = 0;
+  double value_ = 0, frequency_ = 0, decay_ = 0;
 };
 
 } // namespace tessera::solver

@@ -20,6 +20,8 @@ class Heun final : public Step<Body> {
       : Step<Body>(std::move(conditions), momentum_projection) {}
 
  private:
+  std::size_t own_bytes() const override { return this->outside_.walls.empty() ? 0 : sizeof(Vec<D>); }
+
   void prepare(Body& body, double) override {
     if (!this->outside_.walls.empty())
       place_ = body.U.x;

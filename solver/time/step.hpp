@@ -27,6 +27,15 @@ class Step {
   std::vector<Wall<D>>& walls() { return outside_.walls; }
   HeldVelocities<D>& held() { return outside_.held; }
 
+  /// Memory of what acts from outside, bytes a particle; zero where nothing does.
+  std::size_t outside_bytes() const {
+    std::size_t bytes =
+        (works_ + loaded_) * sizeof(Vec<D>) + (outside_.X.empty() ? 0 : sizeof(Vec3)) + own_bytes();
+    for (const Wall<D>& wall : outside_.walls)
+      bytes += wall.bytes();
+    return bytes;
+  }
+
   /// Conditions on the initial momenta; `dt` is the step to come.
   void start(Body& body, double dt) {
     numerical_.assign(body.V.size(), Vec<D>::Zero());
@@ -67,6 +76,8 @@ class Step {
                             [](const Wall<D>& wall) { return wall.law().method == ContactMethod::penalty; })),
         loaded_(pushed_ || !outside_.loads.empty()) {}
 
+  /// Of them, bytes a particle that the method itself holds.
+  virtual std::size_t own_bytes() const { return 0; }
   /// What the method needs before its first step.
   virtual void prepare(Body& body, double dt) = 0;
   /// U^n to U^(n+1), histories and all.

@@ -17,6 +17,7 @@ namespace tessera::solver {
 struct StepBounds {
   double by_wave, critical;
   bool critical_binds;
+  double frequency, decay; ///< of the field the critical step belongs to: sqrt(K), rad/s, and C, 1/s
 };
 
 /// The smaller of two, each where it is asked for:
@@ -42,7 +43,8 @@ class StepLimit {
     if (stiffness_.empty())
       begin(body);
     const double critical = critical_.value();
-    return {by_wave(body), critical, share_ > 0 && share_ * critical < sigma_ * by_wave(body)};
+    return {by_wave(body), critical, share_ > 0 && share_ * critical < sigma_ * by_wave(body),
+            critical_.frequency(), critical_.decay()};
   }
   double critical() const { return critical_.value(); } ///< as last found, s; zero without
 

@@ -164,6 +164,8 @@ TEST(Output, CheckWritesNothing) {
   const auto before = place.listing();
   const Result text = place.tessera({"check", "case.toml", "--quiet"});
   EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  EXPECT_TRUE(text.out.starts_with("small box\n")) << "what was asked for is no chatter: " << text.out;
   const Result json = place.tessera({"check", "case.toml", "--json", "--threads", "1"});
   EXPECT_EQ(json.status, 0) << json.err;
   EXPECT_EQ(place.listing(), before);
@@ -175,6 +177,37 @@ TEST(Output, CheckWritesNothing) {
   EXPECT_NEAR(outlook["wave_speed"].get<double>(), std::sqrt((lambda + 2 * mu) / 8930), 1e-6);
   EXPECT_NEAR(outlook["upper"][2].get<double>(), 0.02, 1e-12);
   EXPECT_GT(outlook["steps"].get<int>(), 5);
+}
+
+TEST(Output, CheckForetellsTheStepsOfASmallRun) {
+  const Workplace place;
+  write_small_case(place);
+  const Json outlook = Json::parse(place.tessera({"check", "case.toml", "--json", "--quiet"}).out);
+  ASSERT_EQ(place.tessera({"run", "case.toml", "--quiet", "--no-pictures", "-o", "out"}).status, 0);
+  const Json summary = Json::parse(place.read("out/summary.json"));
+  EXPECT_NEAR(outlook["steps"].get<double>(), summary["steps"].get<double>(), 1)
+      << "it was rehearsed as it is";
+  EXPECT_EQ(outlook["rehearsals"].back()["particles"], 225);
+  EXPECT_DOUBLE_EQ(outlook["bytes_per_particle"], summary["bytes_per_particle"]);
+  EXPECT_GT(outlook["seconds"], outlook["setup_seconds"]);
+}
+
+TEST(Output, CheckExplainsWhatWasChosen) {
+  const Workplace place;
+  write_small_case(place);
+  const Result text = place.tessera({"check", "case.toml", "--explain", "--quiet"});
+  for (const char* piece :
+       {"  left out", "surface loads (no such [[boundary]])", "contact with rigid tools ([[wall]]",
+        "formulation: {p, F} (auto: Poisson's ratio 0.35 is below 0.49)",
+        "kappa 0.5, falling to 0.2 at a plastic strain of 0.5", "swings at"})
+    EXPECT_NE(text.out.find(piece), std::string::npos) << piece << " is not in\n" << text.out;
+  const Json plain = Json::parse(place.tessera({"check", "case.toml", "--json"}).out);
+  EXPECT_FALSE(plain.contains("choices"));
+  const Json json = Json::parse(place.tessera({"check", "case.toml", "--json", "--explain"}).out);
+  EXPECT_EQ(json["choices"].size(), 7U);
+  for (const Json& choice : json["choices"])
+    EXPECT_FALSE(choice["why"].get<std::string>().empty()) << choice["what"];
+  EXPECT_GT(json["step"]["frequency"], 0);
 }
 
 TEST(Output, JsonIsAllThereIsOnStandardOutput) {

@@ -153,6 +153,16 @@ TEST(Usage, OverridesAreCheckedLikeTheFile) {
                {"'solver.clf'", "--set solver.clf=0.1", "did you mean 'cfl'"});
 }
 
+TEST(Usage, FormulasWithoutAValueAreNamedWithTheirPlace) {
+  const Workplace place;
+  write_small_case(place);
+  place.write("case.toml",
+              small_case + "[[boundary]]\non = \"foot\"\ntype = \"traction\"\ntraction = [0, \"1/0\", 0]\n");
+  const auto lines_before = std::count(small_case.begin(), small_case.end(), '\n');
+  expect_error(place.tessera({"check", "case.toml", "--quiet"}),
+               {"\"1/0\"", "boundary.0.traction.1, case.toml:" + std::to_string(lines_before + 4)});
+}
+
 TEST(Usage, SetsThatDoNotExistAreNamedWithTheirPlace) {
   const Workplace place;
   write_small_case(place);

@@ -1,3 +1,4 @@
+#include "solver/scene/forecast_definition.hpp"
 #include "solver/scene/run_formulation_definition.hpp"
 #include "solver/scene/stability_definition.hpp"
 
@@ -5,8 +6,8 @@ namespace tessera::solver {
 
 template Summary run_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
 template Summary run_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&, const Outputs&, Progress&);
-template Forecast forecast_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&);
-template Forecast forecast_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&);
+template Forecast forecast_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&, const Outputs&);
+template Forecast forecast_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&, const Outputs&);
 template StabilityFindings stability_formulation<PF<2>>(const SceneSpec&, const ParticleCloud&, const Vec3&);
 template StabilityFindings stability_formulation<PF<3>>(const SceneSpec&, const ParticleCloud&, const Vec3&);
 

@@ -25,6 +25,18 @@ TEST(Progress, PlainLinesAtTenthsWithTimeLeft) {
   EXPECT_EQ(lines, 11);
 }
 
+TEST(Progress, TimeLeftGoesByHowItWentLately) {
+  std::ostringstream out;
+  double now = 0;
+  Progress progress(out, false, false, [&] { return now; });
+  progress.begin("solve", 10);
+  for (int i = 1; i <= 8; ++i) { // the later half of the work is ten times as slow
+    now += i <= 5 ? 1 : 10;
+    progress.advance(i);
+  }
+  EXPECT_NE(out.str().find("solve  80 %, 20 s left\n"), std::string::npos) << out.str();
+}
+
 TEST(Progress, ATerminalGetsOneLineRewritten) {
   std::ostringstream out;
   double now = 0;

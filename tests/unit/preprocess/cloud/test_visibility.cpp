@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace tessera::preprocess {
 namespace {
@@ -80,6 +81,8 @@ TEST(HiddenPairs, AreNoNeighbours) {
   EXPECT_EQ(found.column[found.row[0]], 2);
   EXPECT_EQ(distance_to_nearest(X, 1, hidden)[0], 2);
   EXPECT_EQ(distance_to_nearest(X, 1)[0], 1);
+  EXPECT_EQ(distance_to_nearest(X, 2, hidden)[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(distance_to_nearest(X, 2, hidden)[2], 2);
 }
 
 } // namespace

@@ -43,3 +43,16 @@ TEST(Support, MoreNeighboursThanParticlesIsAnError) {
   const auto cloud = test::box_lattice(3, 3, 3, Vec3(1, 1, 1));
   EXPECT_THROW(adaptive_support<3>(cloud.X, cloud.V, 30), InputError);
 }
+
+TEST(Support, MoreNeighboursThanAParticleSeesIsAnErrorThatNamesIt) {
+  const auto cloud = test::box_lattice(4, 4, 4, Vec3(1, 1, 1));
+  std::vector<std::array<std::int32_t, 2>> pairs; // particle 5 sees twenty others only
+  for (std::int32_t b = 6; b < 49; ++b)
+    pairs.push_back({5, b});
+  try {
+    adaptive_support<3>(cloud.X, cloud.V, 30, HiddenPairs(cloud.size(), pairs));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("particle 5 "), std::string::npos) << e.what();
+  }
+}

@@ -29,6 +29,16 @@ TEST(Expression, AnInfiniteValueIsRefused) {
   EXPECT_THROW(Expression("1/X")(Vec3::Zero()), InputError);
 }
 
+TEST(Expression, AnInfiniteValueNamesThePlaceItIsWrittenAt) {
+  try {
+    Expression("1/t", "boundary.0.pressure, case.toml:3:4")(Vec3::Zero());
+    FAIL() << "finite";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(", boundary.0.pressure, case.toml:3:4, "), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Expression, KnowsTheTimeAndWhetherThePlaceMatters) {
   EXPECT_EQ(Expression("-10*min(t/0.1, 1)")(Vec3::Zero(), 0.05), -5);
   EXPECT_EQ(Expression("t")(Vec3::Zero()), 0);

@@ -1,5 +1,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "solver/scene/forecast.hpp"
 #include "solver/scene/scene.hpp"
 #include "tests/support/clouds.hpp"
 
@@ -234,8 +235,8 @@ TEST(Run, EveryDissipationStandsWithEitherSchemeDownToSixNeighbours) {
           EXPECT_LT(summary.energy.balance_error, 0.005);
           const Forecast forecast = tessera::solver::forecast(scene, cloud);
           EXPECT_EQ(std::any_of(forecast.left_out.begin(), forecast.left_out.end(),
-                                [](const std::string& line) {
-                                  return line.find("by 8 particles") != std::string::npos;
+                                [](const Reasoned& part) {
+                                  return part.what.find("by 8 particles") != std::string::npos;
                                 }),
                     support < 2 && dissipation != "linear_residual");
         }
@@ -249,10 +250,39 @@ TEST(Forecast, SaysWhatIsModelledAndWhatTheFirstStepIs) {
   EXPECT_NEAR(forecast.dt / (0.3 * 0.64e-3 / c), 1, 1e-9);
   EXPECT_NEAR(forecast.mass / (8930 * cloud.domain_volume), 1, 1e-12);
   EXPECT_GT(forecast.bytes_per_particle, 1000);
-  EXPECT_FALSE(forecast.modelled.empty());
-  EXPECT_NE(std::find(forecast.left_out.begin(), forecast.left_out.end(),
-                      "fixed velocities (no such [[boundary]])"),
-            forecast.left_out.end());
+  const auto why = [](const std::vector<Reasoned>& list, const std::string& what) {
+    for (const Reasoned& part : list)
+      if (part.what == what)
+        return part.why;
+    return std::string("not among them");
+  };
+  EXPECT_EQ(why(forecast.modelled, "von Mises plasticity"), "[material.plasticity]");
+  EXPECT_EQ(why(forecast.modelled, "contact with rigid tools"), "[[wall]] wall");
+  EXPECT_EQ(why(forecast.left_out, "fixed velocities"), "no such [[boundary]]");
+  EXPECT_EQ(why(forecast.left_out, "J, the volume ratio, as a field"),
+            "Poisson's ratio 0.35 needs none: it does below 0.49");
+  EXPECT_EQ(why(forecast.left_out, "the third dimension"), "not among them");
+  EXPECT_EQ(why(forecast.choices, "formulation: {p, F}"), "auto: Poisson's ratio 0.35 is below 0.49");
+  EXPECT_GT(forecast.step_cpu_seconds, 0);
+  EXPECT_EQ(forecast.fastest_motion, 227);
+}
+
+TEST(Forecast, TheFieldThatBindsTheStepSwingsAndDecaysAsTheStepSays) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  SceneSpec scene = impact();
+  scene.dissipation = "linear_residual";
+  const StepChoice step = tessera::solver::forecast(scene, cloud).step;
+  EXPECT_GT(step.decay, 0);
+  EXPECT_NEAR(std::pow(step.critical * step.frequency, 2) + 2 * step.critical * step.decay, 4, 1e-9);
+}
+
+TEST(Run, EndsWhereItIsEnough) {
+  const auto cloud = test::cylinder_lattice(3, 11, 0.64e-3);
+  Outputs outputs;
+  outputs.enough = [](double, std::int64_t steps) { return steps == 3; };
+  const Summary summary = run(impact(), cloud, outputs, Progress::silent());
+  EXPECT_EQ(summary.steps, 3);
+  EXPECT_LT(summary.time, impact().end_time);
 }
 
 TEST(Forecast, SaysWhichOfTheTwoStepsBinds) {
