@@ -14,6 +14,10 @@
 
 namespace tessera::solver {
 
+/// Of the first step. A body that blows up without turning inside out takes its step along, and the run would
+/// never end.
+inline constexpr double collapsed = 1e-4;
+
 /// `began`: cpu_seconds() before anything was set up.
 template <class Body>
 Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs,
@@ -40,12 +44,27 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
   summary.step = step_choice(bounds);
 
   double time = 0;
-  const double start = wall_seconds();
+  const double start = wall_seconds(), first_dt = dt;
+  const auto broken_off = [&](const std::string& what, std::int64_t particle) {
+    reporter.last(time, summary.steps, dt);
+    const Vec3 X = cloud.X[particle];
+    return RunError(
+        fmt::format("{} at particle {} (reference position {:.4g}, {:.4g}, {:.4g} m)", what, particle, X[0],
+                    X[1], X[2]),
+        fmt::format("step {}, time {:.6g} s", summary.steps + 1, time),
+        fmt::format(
+            "the last good frame is written: lower solver.cfl, raise solver.{} or refine the particles",
+            chosen_dissipation(scene) == "linear_residual" ? "residual" : "jst4"));
+  };
   progress.begin("solve", scene.end_time);
   const auto enough = [&] { return outputs.enough && outputs.enough(time, summary.steps); };
   while (time < scene.end_time && !enough()) {
     const double step_began = cpu_seconds();
     dt = limit(body);
+    if (dt < collapsed * first_dt)
+      throw broken_off(
+          fmt::format("the step has shrunk from {:.3g} to {:.3g} s: waves are fastest", first_dt, dt),
+          std::max_element(body.wave.begin(), body.wave.end()) - body.wave.begin());
     summary.dt_min = std::min(summary.dt_min, dt);
     summary.dt_max = std::max(summary.dt_max, dt);
     const bool last = time + dt >= scene.end_time;
@@ -54,17 +73,9 @@ Summary run_assembly(const SceneSpec& scene, const ParticleCloud& cloud, const O
     try {
       step(body, time, dt);
     } catch (const Breakdown& breakdown) {
-      reporter.last(time, summary.steps, dt);
-      const Vec3 X = cloud.X[breakdown.particle];
-      throw RunError(
-          fmt::format("{} at particle {} (reference position {:.4g}, {:.4g}, {:.4g} m)",
-                      breakdown.J > 0 ? std::string("a field is no longer finite")
-                                      : fmt::format("the volume ratio J is {:.3g}", breakdown.J),
-                      breakdown.particle, X[0], X[1], X[2]),
-          fmt::format("step {}, time {:.6g} s", summary.steps + 1, time),
-          fmt::format(
-              "the last good frame is written: lower solver.cfl, raise solver.{} or refine the particles",
-              chosen_dissipation(scene) == "linear_residual" ? "residual" : "jst4"));
+      throw broken_off(breakdown.J > 0 ? std::string("a field is no longer finite")
+                                       : fmt::format("the volume ratio J is {:.3g}", breakdown.J),
+                       breakdown.particle);
     }
     time = last ? scene.end_time : time + dt;
     ++summary.steps;

@@ -221,9 +221,9 @@ void validate(const SceneSpec& scene, const std::function<std::string(const std:
 
 /// Runs the scene to its end time. Fields of the frames: Displacement (3), Velocity (3), Pressure, VonMises,
 /// PlasticStrain, Stress (6, Cauchy), J, id and those the scene names.
-/// Throws InputError (set unknown, support too small) before the first step; RunError on J <= 0 or a
-/// non-finite value (naming particle, step and time) or on interruption, after handing out the last good
-/// frame.
+/// Throws InputError (set unknown, support too small) before the first step; RunError on J <= 0, a
+/// non-finite value or a step below 1e-4 of the first (naming particle, step and time) or on interruption,
+/// after handing out the last good frame.
 Summary run(const SceneSpec& scene, const ParticleCloud& cloud, const Outputs& outputs, Progress& progress);
 
 } // namespace tessera::solver

@@ -346,6 +346,25 @@ TEST(Run, HalvesThatCannotSeeEachOtherDoNotFeelEachOther) {
   EXPECT_GT(moved, 1e-6);
 }
 
+/// Heun's method amplifies shear waves of a stiff law beyond measure where nothing damps them; a linear law
+/// lets no volume ratio turn negative at once.
+TEST(Run, AStepThatCollapsesEndsTheRun) {
+  const auto cloud = test::box_lattice(4, 4, 4, Vec3(1, 1, 1));
+  SceneSpec scene;
+  scene.scheme = "thesis";
+  scene.formulation = "displacement";
+  scene.material = {"linear_elastic", 1000, 1e7, 0.49999, std::nullopt};
+  scene.jst4 = Kappa4::constant(0);
+  scene.end_time = 10;
+  scene.initial.push_back({"all", Formulas{Expression("sin(9*Y)"), Expression("0"), Expression("0")}});
+  try {
+    run(scene, cloud, {}, Progress::silent());
+    FAIL();
+  } catch (const RunError& e) {
+    EXPECT_NE(std::string(e.what()).find("the step has shrunk"), std::string::npos) << e.what();
+  }
+}
+
 TEST(Run, SupportsBeyondTheSightOfTheCloudAreRefused) {
   auto cloud = test::box_lattice(5, 5, 5, Vec3(1, 1, 1));
   cloud.sight.assign(cloud.X.size(), 0.6);
