@@ -115,39 +115,43 @@ void add_slopes(post::Chart& chart) {
 
 /// Error against spacing: one chart a marker, beside them lines of the first and the second order.
 std::vector<post::Chart> convergence_charts(const Study& study, const Results& results) {
-  std::vector<post::Chart> charts;
-  const std::vector<Convergence> all = convergence(study, results);
   const bool two = study.colour != study.marker;
-  for (const AxisValue& marker : axis_named(study, study.marker).values) {
-    post::Chart chart{two ? marker.label : study.title,
-                      "Spacing (m)",
-                      fmt::format("Relative {}", error_words(study)),
-                      true,
-                      true,
-                      {}};
-    for (const Convergence& one : all) {
-      if (two && one.labels.at(study.marker) != marker.label)
-        continue;
-      const auto& colours = axis_named(study, study.colour).values;
-      const auto colour = std::find_if(colours.begin(), colours.end(), [&](const AxisValue& value) {
-        return value.label == one.labels.at(study.colour);
-      });
-      post::Curve line;
-      line.label = fmt::format("{}: order {:.2f}", colour->label, one.order);
-      line.x = one.spacing;
-      line.y = one.error;
-      line.colour = static_cast<int>(colour - colours.begin());
-      post::Curve dots = line;
-      dots.label.clear();
-      dots.dots = true;
-      chart.curves.insert(chart.curves.end(), {line, dots});
-    }
-    if (chart.curves.empty())
-      continue;
-    add_slopes(chart);
-    charts.push_back(std::move(chart));
+  const auto& colours = axis_named(study, study.colour).values;
+  std::map<std::string, post::Chart> charts; // by marker
+  for (const Convergence& one : convergence(study, results)) {
+    const std::string marker = two ? one.labels.at(study.marker) : study.title;
+    const auto colour = std::find_if(colours.begin(), colours.end(), [&](const AxisValue& value) {
+      return value.label == one.labels.at(study.colour);
+    });
+    post::Curve line;
+    line.label = fmt::format("{}: order {:.2f}", colour->label, one.order);
+    line.x = one.spacing;
+    line.y = one.error;
+    line.colour = static_cast<int>(colour - colours.begin());
+    post::Curve dots = line;
+    dots.label.clear();
+    dots.dots = true;
+    auto& curves = charts[marker].curves;
+    curves.insert(curves.end(), {line, dots});
   }
-  return charts;
+  std::vector<post::Chart> out;
+  const auto add = [&](const std::string& title) {
+    const auto found = charts.find(title);
+    if (found == charts.end())
+      return;
+    post::Chart& chart = out.emplace_back(std::move(found->second));
+    chart.title = title;
+    chart.x_title = "Spacing (m)";
+    chart.y_title = fmt::format("Relative {}", error_words(study));
+    chart.log_x = chart.log_y = true;
+    add_slopes(chart);
+  };
+  if (!two)
+    add(study.title);
+  for (const AxisValue& marker : axis_named(study, study.marker).values)
+    if (two)
+      add(marker.label);
+  return out;
 }
 
 } // namespace
