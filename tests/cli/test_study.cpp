@@ -152,7 +152,9 @@ TEST(Study, AFailedRunIsARowAndNotTheEnd) {
   EXPECT_EQ(runs.at("too fast").at("verdict"), "unstable");
   EXPECT_NE(runs.at("too fast").at("failure").get<std::string>().find("particle"), std::string::npos);
   EXPECT_TRUE(runs.at("too fast").at("error").is_null());
-  EXPECT_NE(place.read("out/report.md").find("## Without an error\n- too fast: "), std::string::npos);
+  EXPECT_NE(
+      place.read("out/report.md").find("## Without an error\n\n| run | why |\n|:--|:--|\n| too fast | "),
+      std::string::npos);
 
   EXPECT_NE(place.tessera({"study", "study.toml", "-o", "out"}).err.find("0 of them to do"),
             std::string::npos);
