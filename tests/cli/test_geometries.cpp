@@ -26,7 +26,7 @@ std::vector<fs::path> all_cases() {
   for (const fs::directory_entry& folder : fs::directory_iterator(geometries))
     if (folder.is_directory())
       for (const fs::directory_entry& file : fs::directory_iterator(folder))
-        if (file.path().extension() == ".toml" && file.path().filename() != "study.toml")
+        if (file.path().extension() == ".toml" && !file.path().filename().string().starts_with("study"))
           cases.push_back(fs::relative(file.path(), geometries));
   std::sort(cases.begin(), cases.end());
   return cases;
