@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"ShapeNeedsNoUnit",
             "file = \"bar.step\"",
             "shape = \"box\"\nsize = [1, 1, 1]",
-            {"geometry.unit stands beside a shape, whose lengths are in metres", place("unit", 8),
+            {"geometry.unit stands beside a shape, whose lengths are in metres", "case.toml:5:8",
              "leave it out"}},
         Bad{"UnknownShape",
             "file = \"bar.step\"\nunit = \"mm\"",
