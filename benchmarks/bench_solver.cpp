@@ -31,6 +31,7 @@ SceneSpec copper_bar() {
   scene.initial.push_back({"all", Formulas{Expression("0"), Expression("0"), Expression("-227")}});
   scene.walls.push_back({});
   scene.frames = scene.history_rows = 1;
+  scene.end_time = 1; // until the step is known
   return scene;
 }
 
