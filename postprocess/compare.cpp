@@ -169,7 +169,10 @@ std::vector<fs::path> draw_histories(const std::vector<fs::path>& folders,
     });
     return columns;
   };
-  draw("compare_probes.png", telling(probe_columns(histories.front())));
+  const std::vector<std::string> probes = probe_columns(histories.front());
+  if (!probes.empty() && std::none_of(probes.begin(), probes.end(), shared))
+    progress.note(fmt::format("no curves of probes: the runs share none of {}", fmt::join(probes, ", ")));
+  draw("compare_probes.png", telling(probes));
   draw("compare_forces.png", telling(force_columns(histories.front())));
   draw("compare_history.png", asked); // a column that is not there is refused by its reader
   return render(job, progress);
