@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <iostream>
 
 namespace tessera::app {
@@ -131,6 +132,17 @@ struct Grammar {
 
  private:
   /// What compare looks at.
+  /// CLI11's own ranges let nan and inf through.
+  static CLI::Validator finite_positive() {
+    return {[](const std::string& text) -> std::string {
+              double value = 0;
+              return CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0
+                         ? ""
+                         : fmt::format("'{}' is no number greater than 0", text);
+            },
+            "POSITIVE"};
+  }
+
   static void add_sight(CLI::App& command, Options& o) {
     command
         .add_option(
@@ -153,7 +165,7 @@ struct Grammar {
     command.add_flag("--outline", o.outline, "Draw the undeformed bodies as lines");
     command.add_option("--magnify", o.magnify, "Times as large displacements are drawn (1)")
         ->type_name("M")
-        ->check(CLI::PositiveNumber);
+        ->check(finite_positive());
     command
         .add_option("--history", o.columns,
                     "Draw a column of history.csv of all runs over each other, as kinetic_J (repeatable)")

@@ -314,6 +314,16 @@ std::string padded(const std::string& text, std::size_t width, bool right) {
   return right ? air + text : text + air;
 }
 
+/// Curves and pictures of a comparison that stood here before need not be in this one.
+void remove_earlier(const fs::path& output) {
+  std::vector<fs::path> earlier;
+  for (const fs::directory_entry& entry : fs::directory_iterator(output))
+    if (entry.path().filename().string().starts_with("compare_"))
+      earlier.push_back(entry.path());
+  for (const fs::path& file : earlier)
+    fs::remove(file);
+}
+
 } // namespace
 
 Comparison compare(const std::vector<fs::path>& folders, const fs::path& output, Progress& progress,
@@ -336,6 +346,7 @@ Comparison compare(const std::vector<fs::path>& folders, const fs::path& output,
   for (const Section& section : sight.sections)
     sections.push_back(cut(section, snapshots, fields, sight.configuration));
   io::make_output_folder(output);
+  remove_earlier(output);
 
   Comparison comparison;
   comparison.runs = distinct_names(folders);

@@ -137,7 +137,8 @@ Chart chart_over_time(const std::string& title, const std::string& column,
   return chart;
 }
 
-std::vector<Chart> energy_charts(const std::string& title, const io::History& history) {
+std::vector<Chart> energy_charts(const std::string& title, const io::History& history,
+                                 const std::string& per) {
   std::vector<std::string> columns;
   double most = 0;
   for (const char* column :
@@ -149,7 +150,7 @@ std::vector<Chart> energy_charts(const std::string& title, const io::History& hi
   }
   std::vector<Chart> charts;
   if (!columns.empty()) {
-    charts.push_back(chart_of(title, "Energy", columns, history));
+    charts.push_back(chart_of(title, "Energy" + per, columns, history));
     for (std::size_t i = 0; i < columns.size(); ++i)
       charts.back().curves[i].dashed = columns[i] == "total_J";
   }
@@ -159,7 +160,8 @@ std::vector<Chart> energy_charts(const std::string& title, const io::History& hi
   return charts;
 }
 
-std::vector<Chart> momentum_charts(const std::string& title, const io::History& history) {
+std::vector<Chart> momentum_charts(const std::string& title, const io::History& history,
+                                   const std::string& per) {
   std::vector<Chart> charts;
   for (const auto& [name, ending] :
        {std::pair{"Linear momentum", "_kgm_s"}, {"Angular momentum", "_kgm2_s"}}) {
@@ -169,21 +171,20 @@ std::vector<Chart> momentum_charts(const std::string& title, const io::History& 
           largest(history.column(std::string(column))) > 0)
         columns.emplace_back(column);
     if (!columns.empty())
-      charts.push_back(chart_of(charts.empty() ? title : "", name, columns, history));
+      charts.push_back(chart_of(charts.empty() ? title : "", name + per, columns, history));
   }
   return charts;
 }
 
-std::vector<Chart> force_charts(const io::History& history) {
+std::vector<Chart> force_charts(const io::History& history, const std::string& per) {
   std::vector<Chart> charts;
   for (const Forces& one : forces_of(history)) {
-    if (const auto columns = telling(history, one.forces); !columns.empty())
-      charts.push_back(chart_of(
-          column_quantity(one.name).label,
-          columns.size() > 1
-              ? "Force on the body"
-              : fmt::format("Force on the body along {}", columns.front().at(columns.front().size() - 3)),
-          columns, history));
+    if (const auto columns = telling(history, one.forces); !columns.empty()) {
+      const std::string along =
+          columns.size() > 1 ? "" : fmt::format(" along {}", columns.front().at(columns.front().size() - 3));
+      charts.push_back(
+          chart_of(column_quantity(one.name).label, "Force on the body" + along + per, columns, history));
+    }
     for (const std::string& column : telling(history, one.pressure))
       charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
   }

@@ -213,7 +213,8 @@ Document report_of(const fs::path& folder, const std::string& title, const std::
 
 /// energies.png, momenta.png, forces.png and probes.png (of what is not zero throughout) from history.csv,
 /// where there is one.
-std::vector<Plot> history_plots(const fs::path& folder, const std::string& title, Progress& progress) {
+std::vector<Plot> history_plots(const fs::path& folder, const std::string& title, bool plane,
+                                Progress& progress) {
   if (!fs::exists(folder / "history.csv"))
     return {};
   io::History history;
@@ -226,6 +227,7 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
   }
   if (history.column("time_s").size() < 2)
     return {};
+  const std::string per = plane ? ", per metre of thickness" : "";
   const auto plot = [&](const char* name, std::vector<Chart> charts) {
     return Plot{fs::absolute(folder / name).string(), std::move(charts)};
   };
@@ -236,9 +238,10 @@ std::vector<Plot> history_plots(const fs::path& folder, const std::string& title
       probes.charts.push_back(chart_over_time(column_quantity(column).label, column, {{"", &history}}));
   }
   std::vector<Plot> plots;
-  for (Plot& drawn : std::vector<Plot>{plot("energies.png", energy_charts(title + ": energies", history)),
-                                       plot("momenta.png", momentum_charts(title + ": momenta", history)),
-                                       plot("forces.png", force_charts(history)), probes})
+  for (Plot& drawn :
+       std::vector<Plot>{plot("energies.png", energy_charts(title + ": energies", history, per)),
+                         plot("momenta.png", momentum_charts(title + ": momenta", history, per)),
+                         plot("forces.png", force_charts(history, per)), probes})
     if (!drawn.charts.empty())
       plots.push_back(std::move(drawn));
   return plots;
@@ -251,7 +254,8 @@ std::vector<fs::path> write_all(const fs::path& folder, const std::string& asked
   const std::vector<Figure> summary =
       fs::exists(folder / "summary.json") ? summary_figures(folder) : std::vector<Figure>{};
   const std::string title = title_of(folder, summary, asked_title);
-  RenderJob job{std::move(drawings), history_plots(folder, title, progress)};
+  RenderJob job{std::move(drawings),
+                history_plots(folder, title, cloud && cloud->cloud.dimension == 2, progress)};
   if (cloud)
     job.plots.push_back(histogram_plot(folder, cloud->cloud, cloud->even));
   std::vector<fs::path> files = render(job, progress);

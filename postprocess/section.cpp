@@ -31,10 +31,6 @@ std::optional<Vec3> point_from(std::string_view text) {
   return std::nullopt; // a fourth
 }
 
-bool is_finite(double value) {
-  return std::isfinite(value);
-}
-
 double largest(const std::vector<double>& values) {
   double most = 0;
   for (const double value : values)
@@ -58,11 +54,13 @@ Section section_from(const std::string& text) {
       colon == std::string::npos ? std::nullopt : point_from(std::string_view(text).substr(colon + 1));
   require(from && to && *from != *to, fmt::format("'{}' is no section", text), "",
           "give two points in metres: x0,y0,z0:x1,y1,z1");
-  return {*from, *to};
+  return {*from, *to, std::count(text.begin(), text.end(), ',') == 4};
 }
 
 SectionCurves cut(const Section& section, const std::vector<Snapshot>& runs,
                   const std::vector<std::string>& fields, Configuration configuration, int samples) {
+  require(section.in_space || runs.front().cloud.dimension == 2, "a section through a body in space has no z",
+          "", "give two points in metres: x0,y0,z0:x1,y1,z1");
   SectionCurves out;
   for (int i = 0; i < samples; ++i) {
     const double t = static_cast<double>(i) / (samples - 1);
@@ -83,10 +81,11 @@ SectionCurves cut(const Section& section, const std::vector<Snapshot>& runs,
                                                    : value.norm());
       }
     }
-  require(std::any_of(out.curves.begin(), out.curves.end(),
-                      [](const auto& curve) {
-                        return std::any_of(curve.values.begin(), curve.values.end(), is_finite);
-                      }),
+  const auto seen = [](const auto& curve) {
+    return std::count_if(curve.values.begin(), curve.values.end(),
+                         [](double value) { return std::isfinite(value); }) > 1;
+  };
+  require(std::any_of(out.curves.begin(), out.curves.end(), seen),
           fmt::format("the section from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m does not meet "
                       "the body",
                       section.from[0], section.from[1], section.from[2], section.to[0], section.to[1],

@@ -10,7 +10,8 @@
 namespace tessera::post {
 
 struct Section {
-  Vec3 from, to; ///< m
+  Vec3 from, to;         ///< m
+  bool in_space = false; ///< given with z
 };
 
 /// "x0,y0,z0:x1,y1,z1", or without z in the plane. InputError saying how it is written.

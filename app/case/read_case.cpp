@@ -129,7 +129,7 @@ void store_what_is_drawn(const std::vector<post::Picture>& pictures, std::vector
 constexpr int most_abreast = 12;    ///< frames of one picture
 constexpr int most_frames = 10'000; ///< of an animation
 
-post::Picture read_picture(Table table, const std::vector<post::Picture>& earlier) {
+post::Picture read_picture(Table table, const std::vector<post::Picture>& earlier, int dimension) {
   post::Picture picture;
   picture.name = table.name("name");
   std::vector<std::string> fields{
@@ -169,6 +169,8 @@ post::Picture read_picture(Table table, const std::vector<post::Picture>& earlie
   if (!picture.animation && std::max<std::size_t>(picture.times.size(), picture.frames) > most_abreast)
     table.refuse("frames", fmt::format("a picture has more than {} frames side by side", most_abreast),
                  "choose fewer, or show them one after the other: animation = true");
+  if (dimension == 2 && !picture.clip.empty())
+    table.refuse("clip", "a plane body has no inside to cut to", "remove clip");
   if (picture.clip_at && picture.clip.empty())
     table.refuse("clip_at", "clip_at does nothing to a picture that is not cut", "remove it or add clip");
   if (picture.minimum && picture.maximum && *picture.minimum >= *picture.maximum)
@@ -281,7 +283,7 @@ Case read_case(const fs::path& file, const std::vector<std::string>& overrides) 
     for (const Table& entry : probes)
       scene.probes.push_back(read_probe(entry));
     for (const Table& entry : pictures)
-      result.pictures.push_back(read_picture(entry, result.pictures));
+      result.pictures.push_back(read_picture(entry, result.pictures, result.geometry.dimension));
     store_what_is_drawn(result.pictures, scene.fields);
   }
   if (result.has_scene)

@@ -110,9 +110,10 @@ void draw_legend(Canvas& canvas, const CellChart& chart, double width) {
   for (std::size_t i = 0; i < std::size(entries); ++i) {
     const auto& entry = entries[i];
     const double room = shares[i] * (width - 2 * margin);
-    // The whole range of a colour, from the limit on.
+    // The whole range of a colour; from left to right it is getting worse.
     for (int part = 0; part < 3; ++part)
-      canvas.rectangle({x + 20 * part, 30}, {x + 20 * (part + 1), 54}, colour_of(entry.kind, part / 2.0));
+      canvas.rectangle({x + 20 * part, 30}, {x + 20 * (part + 1), 54},
+                       colour_of(entry.kind, (entry.kind == Kind::within ? 2 - part : part) / 2.0));
     canvas.text({x + 72, 42}, entry.words, {.size = 23, .width = room - 90});
     x += room;
   }

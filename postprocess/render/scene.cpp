@@ -91,7 +91,8 @@ const Skin& Shapes::skin(const Panel& panel) {
 Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const CellMesh& cells, const View& view,
                Shapes& shapes) {
   Scene scene{panel, std::move(body), {}, {}, {}, {}, "", {}};
-  scene.second_line = size_of(drawing.cloud ? scene.body.reference : span_of(scene.body), scene.body.plane);
+  if (panel.magnify == 1)
+    scene.second_line = size_of(drawing.cloud ? scene.body.reference : span_of(scene.body), scene.body.plane);
   if (!drawing.tools.empty())
     scene.tools = tool_shapes(drawing.tools, panel.time, view,
                               span_of(scene.body).merged(scene.body.reference), band_width(scene.body));
@@ -135,6 +136,10 @@ Scene scene_of(const Drawing& drawing, const Panel& panel, Body body, const Cell
     scene.extent.min().head<2>().array() -= room;
     scene.extent.max().head<2>().array() += room;
   }
+  // Lines along the rim are to be seen in their whole width.
+  const float rim = 0.006f * scene.extent.sizes().head<2>().maxCoeff();
+  scene.extent.min().head<2>().array() -= rim;
+  scene.extent.max().head<2>().array() += rim;
   // Room for edges and dots before the cells, and for flat ones to have a depth at all.
   const auto air = static_cast<float>(0.5 * scene.body.spacing);
   scene.extent.min().z() -= air;

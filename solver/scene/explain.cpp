@@ -83,8 +83,8 @@ void list_numerics(const SceneSpec& scene, const BodyTraits& body, Lists& lists)
     lists.place(xi > 0, "involution penalty", fmt::format("solver.involution = {:g} ties J to det F", xi),
                 "solver.involution = 0");
   }
-  lists.place(scene.momentum_projection, "momentum projection", "free bodies keep both momenta",
-              "solver.momentum_projection = false");
+  lists.place(scene.momentum_projection, "momentum projection",
+              "inner forces have no resultant and no moment", "solver.momentum_projection = false");
 }
 
 void list_conditions(const SceneSpec& scene, Lists& lists) {

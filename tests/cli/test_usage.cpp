@@ -43,8 +43,18 @@ TEST(Usage, WrongCommandsAndOptions) {
   expect_error(place.tessera({"check", "case.toml", "--cells"}), {"unknown option '--cells'"});
   expect_error(place.tessera({"compare", "only_one"}), {"at least two runs"});
   expect_error(place.tessera({"compare", "a", "b"}), {"no finished run", "a"});
+  for (const char* no_number : {"nan", "inf", "-1", "0", "large"})
+    expect_error(place.tessera({"compare", "a", "b", "--magnify", no_number}),
+                 {"--magnify", no_number, "greater than 0"});
   expect_error(place.tessera({"post", "nowhere"}), {"no run is stored here", "nowhere"});
   EXPECT_TRUE(place.listing().empty());
+}
+
+TEST(Usage, ACutThroughAPlaneBodyIsRefused) {
+  const Workplace place;
+  expect_error(
+      place.tessera({"check", TESSERA_SOURCE_DIR "/geometries/punch", "--set", "output.picture.0.clip=x"}),
+      {"plane body", "remove clip"});
 }
 
 TEST(Usage, MaterialsListsLawsAndHardenings) {

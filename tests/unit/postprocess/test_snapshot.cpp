@@ -186,6 +186,16 @@ TEST(Compare, DrawsSectionsAndTellsFieldDifferences) {
   EXPECT_TRUE(content(folder / "out/compare_section_1.csv")
                   .starts_with("distance_m,x_m,y_m,z_m,Velocity_z_m_s a,Velocity_z_m_s b\n"));
   EXPECT_TRUE(contains(content(folder / "out/compare.csv"), "difference.plastic_strain.l2_relative,"));
+  sight.sections.clear();
+  compare({folder / "a", folder / "b"}, folder / "out", Progress::silent(), sight);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/compare_section_1.csv")) << "of the comparison before";
+  sight.sections = {section_from("0,0:0.006,0.006")};
+  EXPECT_THROW(compare({folder / "a", folder / "b"}, folder / "other", Progress::silent(), sight), InputError)
+      << "without z in space";
+  sight.sections = {section_from("0,0,0.002:1,1,1")};
+  EXPECT_THROW(compare({folder / "a", folder / "b"}, folder / "other", Progress::silent(), sight), InputError)
+      << "in the body with its first point only";
+  sight.sections.clear();
   sight.fields = {"Nothing"};
   EXPECT_THROW(compare({folder / "a", folder / "b"}, folder / "other", Progress::silent(), sight),
                InputError);
