@@ -304,16 +304,6 @@ bool is_plastic(const std::vector<Figure>& run) {
   return strain && strain->value.value_or(0) > 0;
 }
 
-std::size_t width_of(const std::string& utf8) {
-  return static_cast<std::size_t>(std::count_if(
-      utf8.begin(), utf8.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-std::string padded(const std::string& text, std::size_t width, bool right) {
-  const std::string air(width > width_of(text) ? width - width_of(text) : 0, ' ');
-  return right ? air + text : text + air;
-}
-
 /// Curves and pictures of a comparison that stood here before need not be in this one.
 void remove_earlier(const fs::path& output) {
   std::vector<fs::path> earlier;
@@ -373,29 +363,6 @@ Comparison compare(const std::vector<fs::path>& folders, const fs::path& output,
   keep("compare.md", markdown(document));
   keep("compare.html", html(document, output));
   return comparison;
-}
-
-std::string table(const Comparison& comparison) {
-  std::size_t label = 0;
-  for (const std::string& row : comparison.rows)
-    label = std::max(label, width_of(row));
-  std::string text(label, ' ');
-  std::vector<std::size_t> widths;
-  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
-    std::size_t width = width_of(comparison.runs[i]);
-    for (const auto& values : comparison.values)
-      width = std::max(width, width_of(values[i]));
-    widths.push_back(width);
-    text += "  " + padded(comparison.runs[i], width, true);
-  }
-  text += "\n";
-  for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
-    text += padded(comparison.rows[r], label, false);
-    for (std::size_t i = 0; i < widths.size(); ++i)
-      text += "  " + padded(comparison.values[r][i], widths[i], true);
-    text += "\n";
-  }
-  return text;
 }
 
 } // namespace tessera::post

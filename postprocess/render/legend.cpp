@@ -30,7 +30,7 @@ void draw_bar(Canvas& canvas, const ColourScale& scale, const Quantity& quantity
     canvas.text({left + thickness + 16, y}, figure(tick));
   }
   canvas.text({left + 155, (low + high) / 2}, titled(quantity.label, unit.name),
-              {.size = 28, .anchor = Anchor::centre, .upwards = true, .width = height + 40});
+              {.size = 28, .anchor = Anchor::centre, .upwards = true, .width = height});
   const auto extreme = [&](double value) {
     return std::abs(value * unit.factor) < 999.5 ? fmt::format("{:.3g}", value * unit.factor)
                                                  : figure(value * unit.factor);
