@@ -17,14 +17,6 @@ bool has(const io::History& history, const std::string& column) {
   return std::find(history.names.begin(), history.names.end(), column) != history.names.end();
 }
 
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double v : values)
-    if (std::isfinite(v))
-      most = std::max(most, std::abs(v));
-  return most;
-}
-
 /// At most a few thousand of the values, the last among them: more than a picture can show.
 std::vector<double> thinned(const std::vector<double>& values, double factor) {
   const std::size_t stride = values.size() / 4000 + 1;
@@ -66,10 +58,10 @@ std::vector<std::string> telling(const io::History& history, const std::vector<s
   constexpr double noise = 1e-9;
   double most = 0;
   for (const std::string& column : columns)
-    most = std::max(most, largest(history.column(column)));
+    most = std::max(most, largest_magnitude(history.column(column)));
   std::vector<std::string> out;
   for (const std::string& column : columns)
-    if (most > 0 && largest(history.column(column)) > noise * most)
+    if (most > 0 && largest_magnitude(history.column(column)) > noise * most)
       out.push_back(column);
   return out;
 }
@@ -77,7 +69,7 @@ std::vector<std::string> telling(const io::History& history, const std::vector<s
 Unit time_unit(const std::vector<NamedHistory>& runs) {
   double end = 0;
   for (const NamedHistory& run : runs)
-    end = std::max(end, largest(run.history->column("time_s")));
+    end = std::max(end, largest_magnitude(run.history->column("time_s")));
   return readable_unit("s", end);
 }
 
@@ -87,7 +79,7 @@ Chart chart_of(const std::string& title, const std::string& y_title, const std::
   const Unit time = time_unit({{"", &history}});
   double most = 0;
   for (const std::string& column : columns)
-    most = std::max(most, largest(history.column(column)));
+    most = std::max(most, largest_magnitude(history.column(column)));
   const Unit unit = readable_unit(column_quantity(columns.front()).unit, most);
   Chart chart{title, titled("Time", time.name), titled(y_title, unit.name), false, false, {}};
   for (const std::string& column : columns)
@@ -126,7 +118,7 @@ Chart chart_over_time(const std::string& title, const std::string& column,
   const Unit time = time_unit(runs);
   double most = 0;
   for (const NamedHistory& run : runs)
-    most = std::max(most, largest(run.history->column(column)));
+    most = std::max(most, largest_magnitude(run.history->column(column)));
   const Unit unit = readable_unit(quantity.unit, most);
   Chart chart{title, titled("Time", time.name), titled(quantity.label, unit.name), false, false, {}};
   for (const NamedHistory& run : runs) {
@@ -143,10 +135,10 @@ std::vector<Chart> energy_charts(const std::string& title, const io::History& hi
   double most = 0;
   for (const char* column :
        {"kinetic_J", "internal_J", "plastic_J", "dissipated_J", "external_J", "total_J"}) {
-    if (!has(history, column) || largest(history.column(column)) == 0)
+    if (!has(history, column) || largest_magnitude(history.column(column)) == 0)
       continue;
     columns.emplace_back(column);
-    most = std::max(most, largest(history.column(column)));
+    most = std::max(most, largest_magnitude(history.column(column)));
   }
   std::vector<Chart> charts;
   if (!columns.empty()) {
@@ -154,7 +146,7 @@ std::vector<Chart> energy_charts(const std::string& title, const io::History& hi
     for (std::size_t i = 0; i < columns.size(); ++i)
       charts.back().curves[i].dashed = columns[i] == "total_J";
   }
-  if (has(history, "balance_error") && largest(history.column("balance_error")) > 0)
+  if (has(history, "balance_error") && largest_magnitude(history.column("balance_error")) > 0)
     charts.push_back(chart_over_time("Energy that is not accounted for, over the largest total",
                                      "balance_error", {{"", &history}}));
   return charts;
@@ -168,7 +160,7 @@ std::vector<Chart> momentum_charts(const std::string& title, const io::History& 
     std::vector<std::string> columns;
     for (const std::string_view column : history_columns)
       if (column.ends_with(ending) && has(history, std::string(column)) &&
-          largest(history.column(std::string(column))) > 0)
+          largest_magnitude(history.column(std::string(column))) > 0)
         columns.emplace_back(column);
     if (!columns.empty())
       charts.push_back(chart_of(charts.empty() ? title : "", name + per, columns, history));

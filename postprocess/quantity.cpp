@@ -165,6 +165,14 @@ Unit readable_unit(const std::string& unit, double magnitude) {
   return best;
 }
 
+double largest_magnitude(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values)
+    if (std::isfinite(value))
+      most = std::max(most, std::abs(value));
+  return most;
+}
+
 std::string titled(const std::string& label, const std::string& unit, const std::string& pure) {
   const std::string& shown = unit.empty() ? pure : unit;
   return shown.empty() ? label : fmt::format("{} ({})", label, shown);

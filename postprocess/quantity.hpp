@@ -41,6 +41,9 @@ struct Unit {
   std::string name;
 };
 
+/// Of the finite ones; 0 where there is none.
+double largest_magnitude(const std::vector<double>& values);
+
 /// The prefixed unit in which people give a value of this `magnitude` (SI).
 Unit readable_unit(const std::string& unit, double magnitude);
 

@@ -31,14 +31,6 @@ std::optional<Vec3> point_from(std::string_view text) {
   return std::nullopt; // a fourth
 }
 
-double largest(const std::vector<double>& values) {
-  double most = 0;
-  for (const double value : values)
-    if (std::isfinite(value))
-      most = std::max(most, std::abs(value));
-  return most;
-}
-
 std::vector<double> scaled(std::vector<double> values, double factor) {
   for (double& value : values)
     value *= factor;
@@ -105,7 +97,7 @@ std::vector<Chart> charts_of(const SectionCurves& curves, const std::vector<std:
       double most = 0;
       for (const auto& other : curves.curves)
         if (other.field == curve.field)
-          most = std::max(most, largest(other.values));
+          most = std::max(most, largest_magnitude(other.values));
       units.push_back(readable_unit(quantity.unit, most));
       charts.push_back({title,
                         titled("Distance along the section", length.name),
