@@ -15,6 +15,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -49,7 +50,7 @@ void operator_build(benchmark::State& state) {
   const auto cloud = test::box_lattice(n, n, n, Vec3(1, 1, 1));
   for (auto _ : state) {
     const Neighbours graph = uniform_support(cloud.X, 2.2 * cloud.spacing);
-    benchmark::DoNotOptimize(build_gradient<3>(cloud.X, cloud.V, graph).w.data());
+    benchmark::DoNotOptimize(build_gradient<3>(cloud.X, cloud.V, graph).omega.data());
     benchmark::DoNotOptimize(build_laplacian<3>(cloud.X, cloud.V, graph).l.data());
   }
   state.counters["ns/particle"] =
@@ -93,7 +94,7 @@ void correction(benchmark::State& state) {
     Gradient<3> gradient = plain;
     const auto start = std::chrono::steady_clock::now();
     state.counters["iterations"] =
-        static_cast<double>(balance_constant_stress<3>(gradient, cloud.X, cloud.V, cloud.A, graph));
+        static_cast<double>(balance_constant_stress<3>(gradient, cloud.X, cloud.A, graph));
     const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     state.SetIterationTime(taken);
     seconds += taken;
@@ -120,21 +121,23 @@ void time_steps(benchmark::State& state, const SceneSpec& scene, const ParticleC
   state.counters["neighbours"] = neighbours;
 }
 
-/// Steps of an elastic cube of range(0)^3 particles by scheme and method, at the scheme's own support or,
-/// where range(1) > 0, at range(1) / 10 spacings.
-void scheme_step(benchmark::State& state, const std::string& scheme, const std::string& integrator) {
+/// Steps of a neo-Hookean cube of range(0)^3 particles by formulation, scheme and method, at a support of
+/// range(1) / 100 spacings (193: some 25 neighbours of 19^3 particles), on range(2) threads.
+void elastic_step(benchmark::State& state, const std::string& formulation, const std::string& scheme,
+                  const std::string& integrator) {
   const auto n = static_cast<int>(state.range(0));
-  set_threads(1);
+  set_threads(static_cast<int>(state.range(2)));
   const auto cloud = test::box_lattice(n, n, n, Vec3(1, 1, 1));
   SceneSpec scene = rubber_bar();
+  scene.formulation = formulation;
   scene.scheme = scheme;
   scene.integrator = integrator;
-  if (scheme == "consistent")
-    scene.jst4.reset();
-  if (state.range(1) > 0)
-    scene.support = static_cast<double>(state.range(1)) / 10;
+  scene.material.law = "neo_hookean";
+  scene.jst4.reset();
+  scene.support = static_cast<double>(state.range(1)) / 100;
   scene.initial = {{"all", Formulas{Expression("X*Y"), Expression("Y*Z"), Expression("Z*X")}, std::nullopt}};
-  scene.end_time = 20 * forecast(scene, cloud).dt;
+  const double steps = std::clamp(1e6 / static_cast<double>(cloud.size()), 6.0, 200.0);
+  scene.end_time = steps * forecast(scene, cloud).dt;
   time_steps(state, scene, cloud);
 }
 
@@ -177,7 +180,7 @@ void contact_with_channel(benchmark::State& state) {
 void plastic_step(benchmark::State& state) {
   step(state, copper_bar());
 }
-void elastic_step(benchmark::State& state) {
+void hencky_step(benchmark::State& state) {
   step(state, rubber_bar());
 }
 
@@ -187,21 +190,21 @@ BENCHMARK(operator_build)->ArgsProduct({{20, 46}, {1, 2}})->Unit(benchmark::kMil
 BENCHMARK(contact_with_plane)->Arg(12)->Arg(120);
 BENCHMARK(contact_with_channel)->Arg(12)->Arg(120);
 BENCHMARK(plastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
-BENCHMARK(elastic_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
+BENCHMARK(hencky_step)->ArgsProduct({{51, 501}, {1, 2}})->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(correction)
     ->ArgsProduct({{10000, 30000, 100000}, {0, 1}})
     ->Iterations(2)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
-BENCHMARK_CAPTURE(scheme_step, thesis_heun, "thesis", "heun")
-    ->ArgsProduct({{30}, {0, 22}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
-BENCHMARK_CAPTURE(scheme_step, consistent_heun, "consistent", "heun")
-    ->ArgsProduct({{30}, {0, 22}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
-BENCHMARK_CAPTURE(scheme_step, consistent_verlet, "consistent", "verlet")
-    ->ArgsProduct({{30}, {0, 22}})
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
+#define ELASTIC_STEP(name, formulation, scheme, integrator)                                                  \
+  BENCHMARK_CAPTURE(elastic_step, name, formulation, scheme, integrator)                                     \
+      ->Args({19, 193, 1})                                                                                   \
+      ->Unit(benchmark::kMillisecond)                                                                        \
+      ->UseManualTime()
+ELASTIC_STEP(pF_thesis_heun, "pF", "thesis", "heun");
+ELASTIC_STEP(pF_consistent_heun, "pF", "consistent", "heun");
+ELASTIC_STEP(pFJ_consistent_heun, "pFJ", "consistent", "heun");
+ELASTIC_STEP(pFHJ_consistent_heun, "pFHJ", "consistent", "heun");
+ELASTIC_STEP(pF_consistent_verlet, "pF", "consistent", "verlet");
+ELASTIC_STEP(pFJ_consistent_verlet, "pFJ", "consistent", "verlet");
+ELASTIC_STEP(pFHJ_consistent_verlet, "pFHJ", "consistent", "verlet");

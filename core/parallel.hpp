@@ -18,19 +18,17 @@ namespace tessera {
 void set_threads(int n);
 int threads();
 
-/// Calls f(i) for i in [0, n), in parallel. An exception thrown by f is rethrown here (the one of the lowest
-/// block).
-template <class F>
-void for_each(std::int64_t n, F&& f) {
-  constexpr std::int64_t block = 256;
+/// Calls f(begin, end) for the blocks of [0, n), in parallel. An exception thrown by f is rethrown here (the
+/// one of the lowest block).
+template <std::int64_t block = 256, class F>
+void for_each_block(std::int64_t n, F&& f) {
   const std::int64_t blocks = (n + block - 1) / block;
   std::exception_ptr failure;
   std::int64_t failed_block = blocks;
 #pragma omp parallel for schedule(static) num_threads(threads()) if (blocks > 1)
   for (std::int64_t b = 0; b < blocks; ++b) {
     try {
-      for (std::int64_t i = b * block; i < std::min(n, (b + 1) * block); ++i)
-        f(i);
+      f(b * block, std::min(n, (b + 1) * block));
     } catch (...) {
 #pragma omp critical(tessera_for_each)
       if (b < failed_block) {
@@ -41,6 +39,15 @@ void for_each(std::int64_t n, F&& f) {
   }
   if (failure)
     std::rethrow_exception(failure);
+}
+
+/// Calls f(i) for i in [0, n), in parallel blocks.
+template <class F>
+void for_each(std::int64_t n, F&& f) {
+  for_each_block(n, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+      f(i);
+  });
 }
 
 /// As for_each, for items of very uneven cost: small blocks (of `together` items) handed out as threads

@@ -12,31 +12,21 @@
 
 namespace tessera::solver {
 
-template <int D>
-std::vector<double> pair_weights(std::span<const Vec3> X, std::span<const double> V,
-                                 const Neighbours& neighbours, const Kernel<D>& kernel) {
-  std::vector<double> omega(static_cast<std::size_t>(neighbours.edges()));
-  for_each(neighbours.size(), [&](std::int64_t a) {
-    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-      const std::int32_t b = neighbours.column[e];
-      omega[e] = -V[a] * V[b] * kernel.slope_over_r((X[a] - X[b]).norm(), neighbours.pair_support(a, b));
-    }
-  });
-  return omega;
-}
-
 namespace {
 
 /// A_b - S_b: what the operators as they are lack.
 template <int D>
-Field<D> imbalance(const Gradient<D>& gradient, std::span<const double> V, std::span<const Vec3> A,
-                   const Neighbours& neighbours) {
+Field<D> imbalance(const Gradient<D>& gradient, std::span<const Vec3> A, const Neighbours& neighbours) {
   Field<D> lack = Field<D>::Zero(Field<D>::RowsAtCompileTime, neighbours.size());
   for_each(neighbours.size(), [&](std::int64_t b) {
-    Vec<D> force = gradient.s[b]; // of the unit stress, over V_b
-    for (std::int64_t e = neighbours.row[b]; e < neighbours.row[b + 1]; ++e)
-      force += gradient.t[e];
-    lack.col(b).template head<D>() = A[b].head<D>() + V[b] * force;
+    Vec<D> force = Vec<D>::Zero(); // of the unit stress
+    for (std::int64_t e = neighbours.row[b]; e < neighbours.row[b + 1]; ++e) {
+      const std::int32_t c = neighbours.column[e];
+      const auto d = gradient.reach(b, e, c);
+      force +=
+          (gradient.B[b] + gradient.B[c]) * d.col(0).template head<D>() + 2 * d.col(1).template head<D>();
+    }
+    lack.col(b).template head<D>() = A[b].head<D>() + force;
   });
   return lack;
 }
@@ -138,11 +128,10 @@ void require_balanced(std::span<const Vec3> X, std::span<const double> V, std::s
 } // namespace
 
 template <int D>
-std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3> X,
-                                     std::span<const double> V, std::span<const Vec3> A,
-                                     const Neighbours& neighbours, const Kernel<D>& kernel) {
-  require_balanced<D>(X, V, A);
-  FitResidual<D> K(X, neighbours, pair_weights<D>(X, V, neighbours, kernel));
+std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3> X, std::span<const Vec3> A,
+                                     const Neighbours& neighbours) {
+  require_balanced<D>(X, gradient.V, A);
+  FitResidual<D> K(X, neighbours, gradient);
   SplineLevels<D> preconditioner(K);
   const LinearFields<D> linear(X);
 
@@ -154,12 +143,12 @@ std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3
   double left = 0;
   Field<D> lambda(Field<D>::RowsAtCompileTime, neighbours.size());
   for (int round = 0; round < rounds; ++round) {
-    Field<D> lack = imbalance<D>(gradient, V, A, neighbours);
+    Field<D> lack = imbalance<D>(gradient, A, neighbours);
     left = lack.cwiseAbs().maxCoeff() / surface;
     if (left < enough)
       break;
     iterations += solve<D>(K, preconditioner, linear, enough / 3 * surface, lack, lambda);
-    K.correct(gradient, V, lambda);
+    K.correct(gradient, lambda);
   }
   require(left < good,
           fmt::format("the operators of the scheme \"consistent\" did not converge: {:.2g} of the largest "
@@ -169,13 +158,9 @@ std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3
   return iterations;
 }
 
-template std::vector<double> pair_weights<2>(std::span<const Vec3>, std::span<const double>,
-                                             const Neighbours&, const Kernel<2>&);
-template std::vector<double> pair_weights<3>(std::span<const Vec3>, std::span<const double>,
-                                             const Neighbours&, const Kernel<3>&);
-template std::int64_t balance_constant_stress<2>(Gradient<2>&, std::span<const Vec3>, std::span<const double>,
-                                                 std::span<const Vec3>, const Neighbours&, const Kernel<2>&);
-template std::int64_t balance_constant_stress<3>(Gradient<3>&, std::span<const Vec3>, std::span<const double>,
-                                                 std::span<const Vec3>, const Neighbours&, const Kernel<3>&);
+template std::int64_t balance_constant_stress<2>(Gradient<2>&, std::span<const Vec3>, std::span<const Vec3>,
+                                                 const Neighbours&);
+template std::int64_t balance_constant_stress<3>(Gradient<3>&, std::span<const Vec3>, std::span<const Vec3>,
+                                                 const Neighbours&);
 
 } // namespace tessera::solver

@@ -4,19 +4,11 @@
 #include "core/neighbours.hpp"
 #include "core/tensor.hpp"
 #include "solver/operators/gradient.hpp"
-#include "solver/operators/kernel.hpp"
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace tessera::solver {
-
-/// omega_ab = V_a V_b |W'(r)|/r, the symmetric weight of a pair, m: edge by edge in the order of Neighbours
-/// (m^2 d - 2 in d dimensions). The corrected kernel gradient is the least-squares gradient of these weights.
-template <int D>
-std::vector<double> pair_weights(std::span<const Vec3> X, std::span<const double> V,
-                                 const Neighbours& neighbours, const Kernel<D>& kernel = {});
 
 /// The smallest change of the gradient, in the weights omega, after which a constant stress P leaves the
 /// force -P A_b / V_b on every particle, the one that the traction P N on its own surface A_b (m^2, outward;
@@ -28,8 +20,7 @@ std::vector<double> pair_weights(std::span<const Vec3> X, std::span<const double
 /// Throws InputError where the areas are not balanced (sum A = 0, sum X (x) A = (sum V) I) or the iteration
 /// does not converge.
 template <int D>
-std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3> X,
-                                     std::span<const double> V, std::span<const Vec3> A,
-                                     const Neighbours& neighbours, const Kernel<D>& kernel = {});
+std::int64_t balance_constant_stress(Gradient<D>& gradient, std::span<const Vec3> X, std::span<const Vec3> A,
+                                     const Neighbours& neighbours);
 
 } // namespace tessera::solver

@@ -24,14 +24,9 @@ using Field = Eigen::Matrix<double, D == 3 ? 4 : D, Eigen::Dynamic>;
 template <int D>
 class FitResidual {
  public:
-  FitResidual(std::span<const Vec3> X, const Neighbours& neighbours, std::vector<double> omega)
-      : X_(X), neighbours_(neighbours), omega_(std::move(omega)), inverse_moment_(X.size()), m_(X.size()) {
-    for_each(particles(), [&](std::int64_t a) {
-      Mat<D> moment = Mat<D>::Zero();
-      over_edges(a, [&](std::int32_t, double w, const Vec<D>& R) { moment += w * R * R.transpose(); });
-      inverse_moment_[a] = moment.inverse();
-    });
-  }
+  FitResidual(std::span<const Vec3> X, const Neighbours& neighbours, const Gradient<D>& gradient)
+      : X_(X), neighbours_(neighbours), omega_(gradient.omega), inverse_moment_(gradient.inverse_moment),
+        m_(X.size()) {}
 
   /// result = this lambda.
   void multiply(const Field<D>& lambda, Field<D>& result) {
@@ -66,19 +61,11 @@ class FitResidual {
   }
 
   /// Adds the change of lambda to the operators.
-  void correct(Gradient<D>& gradient, std::span<const double> V, const Field<D>& lambda) {
+  void correct(Gradient<D>& gradient, const Field<D>& lambda) {
     fit(lambda);
     for_each(particles(), [&](std::int64_t a) {
-      std::int64_t e = neighbours_.row[a];
-      over_edges(a, [&](std::int32_t b, double w, const Vec<D>& R) {
-        const Vec<D> rise = (lambda.col(b) - lambda.col(a)).template head<D>();
-        const Vec<D> delta_ab = w * (rise - m_[a].template topRows<D>() * R);
-        const Vec<D> delta_ba = w * (m_[b].template topRows<D>() * R - rise);
-        gradient.w[e] += delta_ab / V[a];
-        gradient.t[e] -= delta_ba / V[a];
-        gradient.s[a] += delta_ab / V[a];
-        ++e;
-      });
+      gradient.anchor[a].col(1) += lambda.col(a);
+      gradient.B[a] -= m_[a].template topRows<D>();
     });
   }
 
@@ -88,7 +75,7 @@ class FitResidual {
     for (std::int64_t e = neighbours_.row[a]; e < neighbours_.row[a + 1]; ++e) {
       const std::int32_t b = neighbours_.column[e];
       const Vec<D> R = (X_[b] - X_[a]).template head<D>();
-      use(b, omega_[e], R);
+      use(b, static_cast<double>(omega_[e]), R);
     }
   }
 
@@ -116,8 +103,8 @@ class FitResidual {
 
   std::span<const Vec3> X_;
   const Neighbours& neighbours_;
-  std::vector<double> omega_;
-  std::vector<Mat<D>> inverse_moment_;
+  std::span<const float> omega_;
+  std::span<const Mat<D>> inverse_moment_;
   std::vector<Slope> m_; ///< of the field last fitted
 };
 

@@ -33,35 +33,34 @@ template <int D>
 Gradient<D> build_gradient(std::span<const Vec3> X, std::span<const double> V, const Neighbours& neighbours,
                            const Kernel<D>& kernel) {
   const std::int64_t n = neighbours.size();
-  std::vector<Mat<D>> L(static_cast<std::size_t>(n));
-  std::vector<double> condition(static_cast<std::size_t>(n));
+  const auto particles = static_cast<std::size_t>(n);
+  std::vector<double> condition(particles);
+  Gradient<D> gradient;
+  gradient.omega.resize(static_cast<std::size_t>(neighbours.edges()));
+  gradient.anchor.resize(particles, Gradient<D>::Anchor::Zero());
+  gradient.B.resize(particles);
+  gradient.inverse_moment.resize(particles);
+  gradient.V.assign(V.begin(), V.end());
   for_each(n, [&](std::int64_t a) {
-    const Mat<D> M = moment_matrix<D>(a, X, V, neighbours, kernel);
-    condition[a] = condition_number<D>(M);
+    Mat<D> moment = Mat<D>::Zero();
+    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+      const std::int32_t b = neighbours.column[e];
+      const Vec<D> R = (X[b] - X[a]).template head<D>();
+      // The product of both volumes first: the same bits from both ends.
+      gradient.omega[e] =
+          static_cast<float>(V[a] * V[b] * -kernel.slope_over_r(R.norm(), neighbours.pair_support(a, b)));
+      moment += static_cast<double>(gradient.omega[e]) * R * R.transpose();
+    }
+    condition[a] = condition_number<D>(moment);
     if (!(condition[a] < singular))
       throw InputError(fmt::format("particle {} at ({:.4g}, {:.4g}, {:.4g}) m has {} neighbours within "
                                    "{:.4g} m, which do not span {}",
                                    a, X[a][0], X[a][1], X[a][2], neighbours.count(a), neighbours.support[a],
                                    D == 3 ? "space" : "the plane"),
                        "", "raise solver.support or solver.neighbours");
-    L[a] = M.inverse();
-  });
-
-  Gradient<D> gradient;
-  gradient.w.resize(static_cast<std::size_t>(neighbours.edges()));
-  gradient.t.resize(static_cast<std::size_t>(neighbours.edges()));
-  gradient.s.resize(static_cast<std::size_t>(n));
-  for_each(n, [&](std::int64_t a) {
-    Vec<D> s = Vec<D>::Zero();
-    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-      const std::int32_t b = neighbours.column[e];
-      const Vec<D> R = (X[a] - X[b]).template head<D>();
-      const Vec<D> grad_W = kernel.slope_over_r(R.norm(), neighbours.pair_support(a, b)) * R;
-      gradient.w[e] = V[b] * (L[a] * grad_W);
-      gradient.t[e] = V[b] * (L[b] * grad_W); // -V_b g_ba with g_ba = -L_b grad W_b(X_a)
-      s += gradient.w[e];
-    }
-    gradient.s[a] = s;
+    gradient.anchor[a].col(0).template head<D>() = X[a].template head<D>();
+    gradient.inverse_moment[a] = moment.inverse();
+    gradient.B[a] = V[a] * gradient.inverse_moment[a];
   });
   gradient.worst_condition = max_of(n, 0.0, [&](std::int64_t a) { return condition[a]; });
   return gradient;

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "core/error.hpp"
+#include "core/lanes.hpp"
 #include "core/parallel.hpp"
 #include "solver/operators/gradient.hpp"
 #include "solver/physics/formulation.hpp"
 #include "solver/physics/material.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -26,7 +28,6 @@ struct Breakdown {
 template <int D, class Dissipation>
 struct BodyParts {
   std::vector<Vec<D>> X; ///< reference positions, m
-  std::vector<double> V; ///< subvolumes, m^3
   double density;        ///< reference density, kg/m^3
   std::unique_ptr<Material<D>> material;
   Neighbours neighbours;
@@ -36,6 +37,8 @@ struct BodyParts {
   double delta = 1;      ///< smallest particle distance, m
 };
 
+/// Two sweeps over the edges make the rates. In each a particle reads what its neighbours have sent: momenta
+/// in the first, stresses in the second, laid out as the loops want them.
 template <class Formulation_, class Dissipation>
 class Body {
  public:
@@ -46,15 +49,23 @@ class Body {
   static_assert(Formulation::evolves_J || !dissipates_J);
   static constexpr bool nets_J = Dissipation::nets_J;
 
+  using Field = typename Dissipation::Field; ///< p, and J where it is dissipated
+  using Reach = typename Dissipation::Reach;
+  /// What P does at the ends of an edge: P_a (V w_ab) = [P B | P] . reach, columns in turn.
+  using Pull = Lanes<D, 2 * D>;
+
   /// At rest at the reference positions.
   explicit Body(BodyParts<D, Dissipation> parts)
-      : V(std::move(parts.V)), density(parts.density),
+      : density(parts.density),
         wave_speed(std::sqrt(parts.material->linearised().pressure_wave_modulus() / parts.density)),
         material(std::move(parts.material)), neighbours(std::move(parts.neighbours)),
-        gradient(std::move(parts.gradient)), dissipation(std::move(parts.dissipation)), U(V.size()),
-        R(V.size()), P(V.size(), Mat<D>::Zero()), T(V.size(), Vec<D>::Zero()), wave(V.size(), wave_speed),
-        involution_(parts.involution / parts.delta) {
+        gradient(std::move(parts.gradient)), V(gradient.V), dissipation(std::move(parts.dissipation)),
+        U(V.size()), sent(V.size(), Field::Zero()), pull(V.size(), Pull::Zero()), T(V.size(), Vec<D>::Zero()),
+        wave(V.size(), wave_speed), involution_(parts.involution / parts.delta) {
     U.x = std::move(parts.X);
+    R.p = T;
+    if constexpr (dissipates_J)
+      R.J.assign(V.size(), 0.0);
     dissipation.allocate(V.size());
     if constexpr (!Formulation::evolves_F)
       gradient_of_x_.assign(V.size(), Mat<D>::Identity());
@@ -79,78 +90,102 @@ class Body {
     });
   }
 
-  /// R = rates of U: dx/dt = v, dF/dt = G = grad v, dH/dt = F x G, dJ/dt = H : G and dp/dt = T + D, as far as
-  /// U has them, with T alone kept beside it. P must belong to U.
-  void rates() {
-    strain_rates();
-    momentum_rates();
-  }
-
-  /// The first sweep over the edges gathers v for G and what the dissipation wants first.
-  void strain_rates() {
+  /// The first sweep gathers the momenta (and J, where it is dissipated) for what the dissipation wants first
+  /// and calls use(a, G) with the velocity gradient G (1/s) of every particle, which may change U there.
+  template <class Use>
+  void sweep_momenta(std::span<const Vec<D>> p, std::span<const double> J, Use&& use) {
     for_each(size(), [&](std::int64_t a) {
-      Mat<D> G = Mat<D>::Zero();
-      if constexpr (Formulation::evolves_F)
-        G = -U.p[a] * gradient.s[a].transpose();
-      auto rough = dissipation.begin_first(*this, a);
-      if constexpr (Formulation::evolves_F || Dissipation::sweeps_first)
+      sent[a].template head<D>() = p[a];
+      if constexpr (dissipates_J)
+        sent[a][D] = J[a];
+    });
+    using Moments = typename Dissipation::Moments;
+    for_each(size(), [&](std::int64_t a) {
+      const Field here = sent[a];
+      Moments by_X = Moments::Zero(), by_lambda = Moments::Zero(); // sums of change (x) reach
+      typename Dissipation::First rough;
+      if constexpr (Formulation::evolves_F || Dissipation::fits || Dissipation::gathers)
         for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
           const std::int32_t b = neighbours.column[e];
-          const Vec<D>& p_b = U.p[b];
-          if constexpr (Formulation::evolves_F)
-            for (int c = 0; c < D; ++c)
-              G.col(c) += gradient.w[e][c] * p_b;
-          dissipation.add_first(rough, *this, e, b);
+          const Field change = sent[b] - here;
+          const Reach reach = gradient.reach(a, e, b);
+          for (int j = 0; j < D; ++j) {
+            by_X.col(j) += reach(j, 0) * change;
+            if constexpr (Formulation::evolves_F)
+              by_lambda.col(j) += reach(j, 1) * change;
+          }
+          dissipation.add_first(rough, e, change);
         }
-      R.x[a] = U.p[a] / density;
+      dissipation.end_first(rough, by_X, *this, a);
+      Mat<D> G = Mat<D>::Zero();
       if constexpr (Formulation::evolves_F)
-        R.F[a] = G / density;
-      dissipation.end_first(rough, a);
-      map_rates(a);
+        G = (by_X.template topRows<D>() * gradient.B[a].transpose() + by_lambda.template topRows<D>()) /
+            (density * V[a]);
+      use(a, G);
     });
   }
-
-  /// dH/dt and dJ/dt of U by the dF/dt that is known, without dissipation.
-  void map_rates() {
-    for_each(size(), [&](std::int64_t a) { map_rates(a); });
-  }
-  void map_rates(std::int64_t a) {
-    if constexpr (Formulation::evolves_J) {
-      const Mat3 F = embed(U.F[a]), G = embed_rate(R.F[a]);
-      const Strain of_F = Strain::of(F);
-      const double pull = this->pull(a);
-      if constexpr (Formulation::evolves_H) {
-        R.H[a] = cross(F, G) + pull * (of_F.H - U.H[a]);
-        R.J[a] = U.H[a].cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
-      } else {
-        R.J[a] = of_F.H.cwiseProduct(G).sum() + pull * (of_F.J - U.J[a]);
-      }
-    }
+  template <class Use>
+  void sweep_momenta(const Formulation& of, Use&& use) {
+    if constexpr (Formulation::evolves_J)
+      sweep_momenta(of.p, of.J, use);
+    else
+      sweep_momenta(of.p, {}, use);
   }
 
-  /// Rate at which the penalty takes J to det F and H to cof F, 1/s.
-  double pull(std::int64_t a) const { return involution_ * wave[a]; }
-
-  /// The second sweep gathers P for T and what the dissipation goes by.
-  void momentum_rates() {
+  /// The second sweep gathers the stresses for T = div P and what the dissipation goes by: R is T and the
+  /// dissipation of the last first sweep's fields.
+  void sweep_stresses() {
     for_each(size(), [&](std::int64_t a) {
-      Vec<D> divergence = P[a] * gradient.s[a];
-      auto rough = dissipation.begin_second(*this, a);
+      const Field here = sent[a];
+      Reach total = Reach::Zero();
+      Lanes<D> force = Lanes<D>::Zero();
+      typename Dissipation::Second rough;
       for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
         const std::int32_t b = neighbours.column[e];
-        divergence += P[b] * gradient.t[e];
-        dissipation.add_second(rough, *this, a, e, b);
+        const Reach reach = gradient.reach(a, e, b);
+        total += reach;
+        force += pulled(pull[b], reach);
+        dissipation.add_second(rough, a, e, b, sent[b] - here, static_cast<double>(gradient.omega[e]), reach);
       }
-      T[a] = divergence;
-      R.p[a] = divergence;
-      dissipation.end_second(rough, *this, a);
+      T[a] = (force + pulled(pull[a], total)).template head<D>() / V[a];
+      R.p[a] = T[a];
+      if constexpr (dissipates) {
+        const Field lost = dissipation.end_second(rough, total, *this, a);
+        R.p[a] += lost.template head<D>();
+        if constexpr (dissipates_J)
+          R.J[a] = lost[D];
+      }
     });
   }
+
+  /// R and T of U, whose stresses have been sent.
+  void rates() {
+    sweep_momenta(U, [](std::int64_t, const Mat<D>&) {});
+    sweep_stresses();
+  }
+
+  /// dH/dt and dJ/dt at a particle of a state, what the motion asks for and what the penalty adds.
+  struct MapRates {
+    Mat3 H, H_pull;
+    double J, J_pull;
+  };
+  MapRates map_rates(const Formulation& of, std::int64_t a, const Mat<D>& velocity_gradient) const {
+    const Mat3 F = embed(of.F[a]), G = embed_rate(velocity_gradient);
+    const Strain of_F = Strain::of(F);
+    const double pull_a = pull_to_F(a);
+    if constexpr (Formulation::evolves_H)
+      return {cross(F, G), pull_a * (of_F.H - of.H[a]), of.H[a].cwiseProduct(G).sum(),
+              pull_a * (of_F.J - of.J[a])};
+    else
+      return {{}, {}, of_F.H.cwiseProduct(G).sum(), pull_a * (of_F.J - of.J[a])};
+  }
+  /// Rate at which the penalty takes J to det F and H to cof F, 1/s.
+  double pull_to_F(std::int64_t a) const { return involution_ * wave[a]; }
 
   /// P of U with the histories as they stand: stresses within a step. Throws Breakdown.
   void stresses() {
     check();
-    material->stresses(strains(), P);
+    send_stresses([&](std::int64_t first, std::span<Mat<D>> P) { material->stresses(strains(), first, P); });
     dissipation.sense(*this);
   }
 
@@ -158,10 +193,39 @@ class Body {
   /// change of the histories.
   void commit() {
     check();
-    material->commit(strains(), P, wave);
-    for_each(size(), [&](std::int64_t a) { wave[a] = std::sqrt(wave[a] / density); });
+    send_stresses([&](std::int64_t first, std::span<Mat<D>> P) {
+      material->commit(strains(), first, P, wave);
+      for (std::int64_t a = first; a < first + static_cast<std::int64_t>(P.size()); ++a)
+        wave[a] = std::sqrt(wave[a] / density);
+    });
     dissipation.advance(*this);
     dissipation.sense(*this);
+  }
+
+  /// Stresses, Pa, for the second sweep, that of_block(first, P) gives block by block.
+  template <class OfBlock>
+  void send_stresses(OfBlock&& of_block) {
+    constexpr std::int64_t block = 64; // stays in the nearest cache
+    for_each_block<block>(size(), [&](std::int64_t begin, std::int64_t end) {
+      std::array<Mat<D>, block> P;
+      of_block(begin, std::span(P).first(static_cast<std::size_t>(end - begin)));
+      for (std::int64_t a = begin; a < end; ++a) {
+        const Mat<D>& P_a = P[static_cast<std::size_t>(a - begin)];
+        const Mat<D> PB = P_a * gradient.B[a];
+        for (int j = 0; j < D; ++j) {
+          pull[a].col(2 * j).template head<D>() = PB.col(j);
+          pull[a].col(2 * j + 1).template head<D>() = P_a.col(j);
+        }
+      }
+    });
+  }
+
+  /// First Piola-Kirchhoff stress as last sent, Pa.
+  Mat<D> P(std::int64_t a) const {
+    Mat<D> P_a;
+    for (int j = 0; j < D; ++j)
+      P_a.col(j) = pull[a].col(2 * j + 1).template head<D>();
+    return P_a;
   }
 
   /// Largest pressure wave speed as the body is deformed, (3.93), m/s.
@@ -171,36 +235,55 @@ class Body {
 
   /// Of any vectors u, one a particle.
   Mat<D> gradient_of(std::span<const Vec<D>> u, std::int64_t a) const {
-    Mat<D> grad = -u[a] * gradient.s[a].transpose();
-    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e)
-      grad += u[neighbours.column[e]] * gradient.w[e].transpose();
-    return grad;
+    Mat<D> by_X = Mat<D>::Zero(), by_lambda = by_X;
+    for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
+      const std::int32_t b = neighbours.column[e];
+      const Reach reach = gradient.reach(a, e, b);
+      const Vec<D> change = u[b] - u[a];
+      by_X += change * reach.col(0).template head<D>().transpose();
+      by_lambda += change * reach.col(1).template head<D>().transpose();
+    }
+    return (by_X * gradient.B[a].transpose() + by_lambda) / V[a];
   }
 
   Vec<D> velocity(std::int64_t a) const { return U.p[a] / density; }
-  StrainFields<D> strains() const {
+  StrainFields<D> strains() const { return strains(U); }
+  /// Of U or of an earlier state. Where F is not evolved: as at the last stresses.
+  StrainFields<D> strains(const Formulation& of) const {
     if constexpr (Formulation::evolves_F)
-      return U.strain_fields();
+      return of.strain_fields();
     else
       return {gradient_of_x_, {}, {}};
   }
   Strain strain(std::int64_t a) const { return strains()[a]; }
 
-  const std::vector<double> V; ///< subvolumes, m^3
-  const double density;        ///< reference density, kg/m^3
-  const double wave_speed;     ///< of pressure waves, undeformed, m/s
+  const double density;    ///< reference density, kg/m^3
+  const double wave_speed; ///< of pressure waves, undeformed, m/s
   std::unique_ptr<Material<D>> material;
   const Neighbours neighbours;
   const Gradient<D> gradient;
+  const std::span<const double> V; ///< subvolumes, m^3
   Dissipation dissipation;
 
-  Formulation U;            ///< the state
-  Formulation R;            ///< its rates
-  std::vector<Mat<D>> P;    ///< first Piola-Kirchhoff stress of U, Pa
+  Formulation U; ///< the state
+  struct Rates {
+    std::vector<Vec<D>> p;  ///< dp/dt = T and dissipation, N/m^3
+    std::vector<double> J;  ///< of J by its dissipation alone, 1/s; empty without
+  } R;                      ///< of the last second sweep
+  std::vector<Field> sent;  ///< to the neighbours in the last first sweep
+  std::vector<Pull> pull;   ///< stresses as sent to the neighbours, Pa
   std::vector<Vec<D>> T;    ///< divergence of P alone, N/m^3
   std::vector<double> wave; ///< pressure wave speed at the last commit, (3.93), m/s
 
  private:
+  /// Columns in pairs: the sum of each product is formed before it joins the next.
+  static Lanes<D> pulled(const Pull& of, const Reach& reach) {
+    Lanes<D> sum = of.col(0) * reach(0, 0) + of.col(1) * reach(0, 1);
+    for (int j = 1; j < D; ++j)
+      sum += of.col(2 * j) * reach(j, 0) + of.col(2 * j + 1) * reach(j, 1);
+    return sum;
+  }
+
   void check() {
     if constexpr (!Formulation::evolves_F)
       for_each(size(), [&](std::int64_t a) { gradient_of_x_[a] = gradient_of(U.x, a); });

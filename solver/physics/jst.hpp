@@ -15,55 +15,57 @@
 
 namespace tessera::solver {
 
-/// Of the linear momentum. c is the local pressure wave speed, Delta the smallest particle distance.
-template <int D>
-struct Jst : DissipationDefaults {
-  static constexpr bool active = true, sweeps_first = true;
+/// Of the linear momentum and, with J, of the volume map. c is the local pressure wave speed, Delta the
+/// smallest particle distance.
+template <int D, bool with_J = false>
+struct Jst : DissipationDefaults<D, with_J> {
+  using Base = DissipationDefaults<D, with_J>;
+  using typename Base::Field, typename Base::Moments, typename Base::Reach;
+  static constexpr bool active = true, gathers = true, nets_J = with_J;
   static constexpr std::size_t edge_bytes = sizeof(double),
-                               particle_bytes = 2 * sizeof(double) + sizeof(Vec<D>),
+                               particle_bytes = 2 * sizeof(double) + sizeof(Field),
                                sensor_bytes = sizeof(double);
 
   Laplacian laplacian{};
   double delta = 1; ///< Delta, m
   Kappa4 kappa4{};
+  double kappa4_J = 0;            ///< of the volume map
   double kappa2 = 0;              ///< of the shock term; 0: no sensor, no array
   double pressure_floor = 0;      ///< Pa: pressures below it are no shock's
   std::vector<double> epsilon4{}; ///< kappa4 of every particle; the shock term takes its part off
   std::vector<double> epsilon2{}; ///< kappa2 times the largest sensor among the neighbours; empty without
-  std::vector<Vec<D>> lap_p{};    ///< lap p, kg/(m^4 s)
+  std::vector<Field> lap{};       ///< lap p, kg/(m^4 s), and lap J, 1/m^2
 
   void allocate(std::size_t n) {
     epsilon4.assign(n, kappa4.elastic);
     if (kappa2 > 0)
       epsilon2.assign(n, 0.0);
-    lap_p.assign(n, Vec<D>::Zero());
+    lap.assign(n, Field::Zero());
   }
 
   /// The undivided coefficients of c lap U and of -c lap(lap U) at particle a: m and m^3.
   double second(std::int64_t a) const { return epsilon2.empty() ? 0 : epsilon2[a] * delta; }
   double fourth(std::int64_t a) const { return fourth(a, epsilon4[a]); }
+  double fourth_J(std::int64_t a) const { return fourth(a, kappa4_J); }
 
-  template <class Body>
-  Vec<D> begin_first(const Body& body, std::int64_t a) const {
-    return -laplacian.sum[a] * body.U.p[a];
+  using First = SumOf<Field>;
+  void add_first(First& sum, std::int64_t e, const Field& change) const {
+    sum.value += laplacian.l[e] * change;
   }
   template <class Body>
-  void add_first(Vec<D>& lap, const Body& body, std::int64_t e, std::int32_t b) const {
-    lap += laplacian.l[e] * body.U.p[b];
+  void end_first(const First& sum, const Moments&, const Body&, std::int64_t a) {
+    lap[a] = sum.value;
   }
-  void end_first(const Vec<D>& lap, std::int64_t a) { lap_p[a] = lap; }
 
-  template <class Body>
-  Vec<D> begin_second(const Body&, std::int64_t a) const {
-    return -laplacian.sum[a] * lap_p[a];
+  using Second = SumOf<Field>;
+  void add_second(Second& sum, std::int64_t a, std::int64_t e, std::int32_t b, const Field&, double,
+                  const Reach&) const {
+    sum.value += laplacian.l[e] * (lap[b] - lap[a]);
   }
   template <class Body>
-  void add_second(Vec<D>& lap_lap, const Body&, std::int64_t, std::int64_t e, std::int32_t b) const {
-    lap_lap += laplacian.l[e] * lap_p[b];
-  }
-  template <class Body>
-  void end_second(const Vec<D>& lap_lap, Body& body, std::int64_t a) {
-    body.R.p[a] += body.wave[a] * (second(a) * lap_p[a] - fourth(a) * lap_lap);
+  Field end_second(const Second& sum, const Reach&, const Body& body, std::int64_t a) const {
+    const Field fourths = Base::spread(fourth(a), fourth_J(a));
+    return body.wave[a] * (second(a) * lap[a] - fourths.cwiseProduct(sum.value));
   }
 
   template <class Body>
@@ -81,68 +83,15 @@ struct Jst : DissipationDefaults {
     std::vector<double> pressure(body.V.size());
     for_each(body.size(), [&](std::int64_t a) {
       const Mat<D>& F = body.strains().F[a];
-      pressure[a] = body.P[a].cwiseProduct(F).sum() / (D * F.determinant());
+      pressure[a] = body.P(a).cwiseProduct(F).sum() / (D * F.determinant());
     });
     sense_shocks(*this, body.neighbours, pressure);
   }
 
- protected:
+ private:
   double fourth(std::int64_t a, double kappa) const {
     const double epsilon = epsilon2.empty() ? kappa : std::max(0.0, kappa - epsilon2[a]);
     return epsilon * delta * delta * delta;
-  }
-};
-
-/// Of the linear momentum and of the volume map.
-template <int D>
-struct JstWithJ : Jst<D> {
-  static constexpr bool of_J = true, nets_J = true;
-  static constexpr std::size_t particle_bytes = Jst<D>::particle_bytes + 2 * sizeof(double);
-
-  double kappa4_J = 0;          ///< of the volume map
-  std::vector<double> lap_J{};  ///< 1/m^2
-  std::vector<double> rate_J{}; ///< D^J, 1/s
-
-  struct Laps {
-    Vec<D> p;
-    double J;
-  };
-
-  void allocate(std::size_t n) {
-    Jst<D>::allocate(n);
-    lap_J.assign(n, 0.0);
-    rate_J.assign(n, 0.0);
-  }
-  double fourth_J(std::int64_t a) const { return Jst<D>::fourth(a, kappa4_J); }
-
-  template <class Body>
-  Laps begin_first(const Body& body, std::int64_t a) const {
-    return {Jst<D>::begin_first(body, a), -this->laplacian.sum[a] * body.U.J[a]};
-  }
-  template <class Body>
-  void add_first(Laps& lap, const Body& body, std::int64_t e, std::int32_t b) const {
-    Jst<D>::add_first(lap.p, body, e, b);
-    lap.J += this->laplacian.l[e] * body.U.J[b];
-  }
-  void end_first(const Laps& lap, std::int64_t a) {
-    Jst<D>::end_first(lap.p, a);
-    lap_J[a] = lap.J;
-  }
-
-  template <class Body>
-  Laps begin_second(const Body& body, std::int64_t a) const {
-    return {Jst<D>::begin_second(body, a), -this->laplacian.sum[a] * lap_J[a]};
-  }
-  template <class Body>
-  void add_second(Laps& lap_lap, const Body& body, std::int64_t a, std::int64_t e, std::int32_t b) const {
-    Jst<D>::add_second(lap_lap.p, body, a, e, b);
-    lap_lap.J += this->laplacian.l[e] * lap_J[b];
-  }
-  template <class Body>
-  void end_second(const Laps& lap_lap, Body& body, std::int64_t a) {
-    Jst<D>::end_second(lap_lap.p, body, a);
-    rate_J[a] = body.wave[a] * (this->second(a) * lap_J[a] - fourth_J(a) * lap_lap.J);
-    body.R.J[a] += rate_J[a];
   }
 };
 
@@ -150,8 +99,8 @@ struct JstWithJ : Jst<D> {
 /// its neighbours. The sensor |sum_b l_ab (pr_b - pr_a)| / sum_b |l_ab| (|pr_b| + |pr_a| + floor) is a second
 /// difference of the pressure: at most 1, of order one at a jump, of second order in the spacing where the
 /// pressure is smooth. Absolute values, because a solid's pressure changes its sign where there is no shock.
-template <int D>
-void sense_shocks(Jst<D>& jst, const Neighbours& neighbours, std::span<const double> pressure) {
+template <int D, bool with_J>
+void sense_shocks(Jst<D, with_J>& jst, const Neighbours& neighbours, std::span<const double> pressure) {
   const Laplacian& lap = jst.laplacian;
   std::vector<double> sensor(pressure.size());
   for_each(neighbours.size(), [&](std::int64_t a) {

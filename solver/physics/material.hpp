@@ -1,8 +1,7 @@
-/// What a body is made of: a law with the memory of every particle. One virtual call a sweep, none a
-/// particle.
+/// What a body is made of: a law with the memory of every particle. One virtual call a block of particles,
+/// none a particle.
 #pragma once
 
-#include "core/parallel.hpp"
 #include "core/tensor.hpp"
 #include "solver/physics/law.hpp"
 #include "solver/physics/strain.hpp"
@@ -15,19 +14,22 @@
 
 namespace tessera::solver {
 
+/// Stresses are those of a block of particles from `first` on, as many as P has room for; strains, histories
+/// and all else those of the whole body.
 template <int D>
 class Material {
  public:
   virtual ~Material() = default;
 
   /// First Piola-Kirchhoff stresses (Pa) within a step: the histories stay as they are.
-  virtual void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const = 0;
+  virtual void stresses(const StrainFields<D>& strains, std::int64_t first, std::span<Mat<D>> P) const = 0;
   /// The step is over: the histories advance to the strains; P (Pa) and the moduli of the fastest waves now,
   /// rho0 c^2 (Pa), follow as the step is taken from them.
-  virtual void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) = 0;
+  virtual void commit(const StrainFields<D>& strains, std::int64_t first, std::span<Mat<D>> P,
+                      std::span<double> wave_moduli) = 0;
   /// dP (Pa) of small changes of the strains by grad u (-), about the strains and without further flow.
   virtual void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u,
-                             std::span<Mat<D>> dP) const = 0;
+                             std::int64_t first, std::span<Mat<D>> dP) const = 0;
   virtual ElasticConstants linearised() const = 0;
 
   /// Of particle a, for those who look at the body; P of all nine components in the plane too.
@@ -44,27 +46,31 @@ class MaterialOf final : public Material<D> {
   MaterialOf(Law law, std::int64_t particles)
       : law_(std::move(law)), history_(remembers ? static_cast<std::size_t>(particles) : 1) {}
 
-  void stresses(const StrainFields<D>& strains, std::span<Mat<D>> P) const override {
-    for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
+  void stresses(const StrainFields<D>& strains, std::int64_t first, std::span<Mat<D>> P) const override {
+    for (std::size_t i = 0; i < P.size(); ++i) {
+      const std::int64_t a = first + static_cast<std::int64_t>(i);
       typename Law::History trial = history(a);
-      P[a] = law_.piola(strains[a], trial).template topLeftCorner<D, D>();
-    });
+      P[i] = law_.piola(strains[a], trial).template topLeftCorner<D, D>();
+    }
   }
 
-  void commit(const StrainFields<D>& strains, std::span<Mat<D>> P, std::span<double> wave_moduli) override {
-    for_each(static_cast<std::int64_t>(P.size()), [&](std::int64_t a) {
+  void commit(const StrainFields<D>& strains, std::int64_t first, std::span<Mat<D>> P,
+              std::span<double> wave_moduli) override {
+    for (std::size_t i = 0; i < P.size(); ++i) {
+      const std::int64_t a = first + static_cast<std::int64_t>(i);
       const Strain strain = strains[a];
-      P[a] = law_.piola(strain, history(a)).template topLeftCorner<D, D>();
+      P[i] = law_.piola(strain, history(a)).template topLeftCorner<D, D>();
       wave_moduli[a] = step_wave_modulus(law_, strain);
-    });
+    }
   }
 
-  void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u,
+  void differentials(const StrainFields<D>& strains, std::span<const Mat<D>> grad_u, std::int64_t first,
                      std::span<Mat<D>> dP) const override {
-    for_each(static_cast<std::int64_t>(dP.size()), [&](std::int64_t a) {
-      dP[a] =
+    for (std::size_t i = 0; i < dP.size(); ++i) {
+      const std::int64_t a = first + static_cast<std::int64_t>(i);
+      dP[i] =
           differential(law_, history(a), strains[a], embed_rate(grad_u[a])).template topLeftCorner<D, D>();
-    });
+    }
   }
 
   ElasticConstants linearised() const override { return law_.linearised(); }

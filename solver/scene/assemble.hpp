@@ -68,13 +68,13 @@ auto assemble(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use) {
   set_up<Formulation, D>(dissipation, {scene, cloud, graph, kernel, smallest, modulus});
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph, kernel);
   if (is_consistent(scene))
-    balance_constant_stress<D>(gradient, cloud.X, cloud.V, cloud.A, graph, kernel);
+    balance_constant_stress<D>(gradient, cloud.X, cloud.A, graph);
 
   std::vector<Vec<D>> X(cloud.X.size());
   for (std::size_t a = 0; a < X.size(); ++a)
     X[a] = cloud.X[a].head<D>();
   using ThisBody = Body<Formulation, Dissipation>;
-  Assembly<ThisBody> assembly{ThisBody({std::move(X), cloud.V, scene.material.density, std::move(material),
+  Assembly<ThisBody> assembly{ThisBody({std::move(X), scene.material.density, std::move(material),
                                         std::move(graph), std::move(gradient), std::move(dissipation),
                                         Formulation::evolves_J ? chosen_involution(scene) : 0, smallest}),
                               make_step<ThisBody>(scene, make_conditions<D>(scene, cloud, modulus, smallest)),
@@ -105,17 +105,18 @@ double bytes_per_particle(const MemoryNeeds& needs) {
   constexpr std::size_t vector = sizeof(Vec<D>), tensor = sizeof(Mat<D>), number = sizeof(double);
   constexpr std::size_t state = 2 * vector + Formulation::evolves_F * tensor +
                                 Formulation::evolves_H * sizeof(Mat3) + Formulation::evolves_J * number;
-  constexpr double an_edge = sizeof(std::int32_t) + 2 * vector + Dissipation::edge_bytes;
-  constexpr std::size_t a_particle = sizeof(std::int64_t) + number           // row, support
-                                     + number + vector                       // V, s
-                                     + 3 * state                             // U, R and U^n
-                                     + Formulation::evolves_J * number       // numerical changes of J
-                                     + Formulation::evolves_H * sizeof(Mat3) // and H
-                                     + !Formulation::evolves_F * tensor      // grad x
-                                     + tensor + vector                       // P, T
-                                     + number + vector                       // wave, numerical impulse
+  constexpr double an_edge = sizeof(std::int32_t) + sizeof(float) + Dissipation::edge_bytes;
+  constexpr std::size_t a_particle = sizeof(std::int64_t) + number               // row, support
+                                     + sizeof(Lanes<D, 2>) + 2 * tensor + number // gradient
+                                     + 2 * state                                 // U and U^n
+                                     + Formulation::evolves_J * number           // numerical changes of J
+                                     + Formulation::evolves_H * sizeof(Mat3)     // and H
+                                     + !Formulation::evolves_F * tensor          // grad x
+                                     + sizeof(typename Dissipation::Field)       // sent
+                                     + sizeof(Lanes<D, 2 * D>)                   // pull
+                                     + 2 * vector + number + vector              // R, T, wave, impulse
                                      + number + vector // of the critical step: stiffness, field
-                                     + Dissipation::of_J * number + Dissipation::particle_bytes;
+                                     + Dissipation::of_J * 2 * number + Dissipation::particle_bytes;
   return an_edge * needs.neighbours +
          static_cast<double>(a_particle + needs.history_bytes + needs.outside_bytes +
                              (needs.shocks ? Dissipation::sensor_bytes : 0));

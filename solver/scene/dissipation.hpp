@@ -61,44 +61,29 @@ struct DissipationGround {
 };
 
 template <class Formulation, int D>
-void set_up(NoDissipation&, const DissipationGround<D>&) {}
+void set_up(NoDissipation<D>&, const DissipationGround<D>&) {}
 
-template <class Formulation, int D>
-void set_up(Jst<D>& jst, const DissipationGround<D>& on) {
+template <class Formulation, int D, bool with_J>
+void set_up(Jst<D, with_J>& jst, const DissipationGround<D>& on) {
   jst.laplacian = build_laplacian<D>(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
   jst.delta = on.smallest_distance;
   jst.kappa4 = chosen_kappa4<Formulation>(on.scene);
+  jst.kappa4_J = chosen_kappa4_J(on.scene);
   jst.kappa2 = on.scene.jst2;
   jst.pressure_floor = 1e-4 * on.modulus; // a shock of a strain below this is none
 }
 
-template <class Formulation, int D>
-void set_up(JstWithJ<D>& jst, const DissipationGround<D>& on) {
-  set_up<Formulation, D>(static_cast<Jst<D>&>(jst), on);
-  jst.kappa4_J = chosen_kappa4_J(on.scene);
-}
-
-template <class Formulation, int D>
-void set_up(JstSymmetric<D>& jst, const DissipationGround<D>& on) {
+template <class Formulation, int D, bool with_J>
+void set_up(JstSymmetric<D, with_J>& jst, const DissipationGround<D>& on) {
   jst.weigh(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
   jst.kappa4 = chosen_kappa4<Formulation>(on.scene);
-}
-
-template <class Formulation, int D>
-void set_up(JstSymmetricWithJ<D>& jst, const DissipationGround<D>& on) {
-  set_up<Formulation, D>(static_cast<JstSymmetric<D>&>(jst), on);
   jst.kappa4_J = chosen_kappa4_J(on.scene);
 }
 
-template <class Formulation, int D>
-void set_up(ResidualDissipation<D>& residual, const DissipationGround<D>& on) {
-  residual.weigh(on.cloud.X, on.cloud.V, on.neighbours, on.kernel);
+template <class Formulation, int D, bool with_J>
+void set_up(ResidualDissipation<D, with_J>& residual, const DissipationGround<D>& on) {
+  residual.weigh(on.cloud.V);
   residual.kappa = chosen_residual<Formulation>(on.scene);
-}
-
-template <class Formulation, int D>
-void set_up(ResidualDissipationWithJ<D>& residual, const DissipationGround<D>& on) {
-  set_up<Formulation, D>(static_cast<ResidualDissipation<D>&>(residual), on);
   residual.kappa_J = chosen_residual_J(on.scene);
 }
 
@@ -111,17 +96,17 @@ auto with_dissipation(const SceneSpec& scene, Use&& use) {
       if (of_p && of_J)
         return use.template operator()<WithJ>();
     }
-    return of_p ? use.template operator()<OfP>() : use.template operator()<NoDissipation>();
+    return of_p ? use.template operator()<OfP>() : use.template operator()<NoDissipation<D>>();
   };
   const std::string name = chosen_dissipation(scene);
   if (name == "linear_residual")
-    return choose.template operator()<ResidualDissipation<D>, ResidualDissipationWithJ<D>>(
+    return choose.template operator()<ResidualDissipation<D>, ResidualDissipation<D, true>>(
         chosen_residual<Formulation>(scene).any(), chosen_residual_J(scene) > 0);
   const bool fourth = chosen_kappa4<Formulation>(scene).any(), fourth_J = chosen_kappa4_J(scene) > 0;
   if (name == "jst_symmetric")
-    return choose.template operator()<JstSymmetric<D>, JstSymmetricWithJ<D>>(fourth, fourth_J);
+    return choose.template operator()<JstSymmetric<D>, JstSymmetric<D, true>>(fourth, fourth_J);
   const bool second = scene.jst2 > 0;
-  return choose.template operator()<Jst<D>, JstWithJ<D>>(fourth || second, fourth_J || second);
+  return choose.template operator()<Jst<D>, Jst<D, true>>(fourth || second, fourth_J || second);
 }
 
 } // namespace tessera::solver

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,45 +31,31 @@ class CriticalStep {
   double frequency() const { return frequency_; }
   double decay() const { return decay_; }
 
-  /// Sweeps over all edges. U, P and R of the body are as before afterwards.
+  /// Sweeps over all edges. The body is as before afterwards.
   void refine(Body& body, int sweeps) {
     stir(field_, body.V.size());
     if constexpr (Body::dissipates_J)
       stir(field_J_, body.V.size());
-    const auto U_p = body.U.p, R_p = body.R.p, T = body.T;
-    const auto P = body.P;
-    const auto R_J = rates_of_J(body);
+    const auto pull = body.pull;
+    const auto T = body.T;
+    const auto R = body.R;
     std::vector<Mat<D>> grad_u(body.V.size());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      body.U.p = field_;
-      for_each(body.size(), [&](std::int64_t a) { grad_u[a] = body.gradient_of(field_, a) / body.density; });
-      body.material->differentials(body.strains(), grad_u, body.P);
-      rates(body);
+      body.sweep_momenta(field_, field_J_, [&](std::int64_t a, const Mat<D>& G) {
+        grad_u[a] = Body::Formulation::evolves_F ? G : Mat<D>(body.gradient_of(field_, a) / body.density);
+      });
+      body.send_stresses([&](std::int64_t first, std::span<Mat<D>> dP) {
+        body.material->differentials(body.strains(), grad_u, first, dP);
+      });
+      body.sweep_stresses();
       improve(body);
     }
-    body.U.p = U_p;
-    body.R.p = R_p;
+    body.pull = pull;
     body.T = T;
-    body.P = P;
-    if constexpr (Body::Formulation::evolves_J)
-      body.R.J = R_J;
+    body.R = R;
   }
 
  private:
-  /// T and R.p of the momenta, and R.J of field_J_ by its dissipation alone.
-  void rates(Body& body) {
-    if constexpr (Body::dissipates_J) {
-      std::swap(body.U.J, field_J_);
-      body.strain_rates();
-      std::fill(body.R.J.begin(), body.R.J.end(), 0.0);
-      body.momentum_rates();
-      std::swap(body.U.J, field_J_);
-    } else {
-      body.strain_rates();
-      body.momentum_rates();
-    }
-  }
-
   /// A field that has converged to one place would not see another become stiffer.
   void stir(std::vector<Vec<D>>& field, std::size_t n) {
     const double share = field.empty() ? 1 : 0.1;
@@ -84,13 +71,6 @@ class CriticalStep {
       J += share * random();
   }
   double random() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1; } ///< from -1 to 1
-
-  static std::vector<double> rates_of_J(const Body& body) {
-    if constexpr (Body::Formulation::evolves_J)
-      return body.R.J;
-    else
-      return {};
-  }
 
   /// T = -K p and R.p - T = -C p of the field p have been found.
   void improve(const Body& body) {

@@ -46,7 +46,7 @@ class Linearisation {
 
   Linearisation(Body& body, const HeldVelocities<D>& held, bool projected, double length)
       : body_(body), free_(free_directions<D>(body.V.size(), held)), projected_(projected),
-        grad_u_(body.V.size()), before_(body.U) {
+        grad_u_(body.V.size()) {
     result_.length = length;
     result_.time = length / body.fastest_wave();
     for (const auto& directions : free_) {
@@ -66,7 +66,6 @@ class Linearisation {
     if constexpr (Formulation::evolves_J)
       for (std::int64_t a = 0; a < body_.size(); ++a)
         volume(a);
-    body_.U = before_;
     body_.stresses();
     return std::move(result_);
   }
@@ -75,19 +74,23 @@ class Linearisation {
   /// What a unit of velocity, and of displacement, in a free direction does.
   void motion(std::int64_t a, Eigen::Index k) {
     const Eigen::Index column = first_[a] + k;
-    clear(body_.U.p);
-    const Vec<D> unit = free_[a].col(k) / std::sqrt(body_.V[a]);
-    body_.U.p[a] = unit;
-    for_each(body_.size(), [&](std::int64_t b) { grad_u_[b] = body_.gradient_of(body_.U.p, b); });
-    body_.material->differentials(body_.strains(), grad_u_, body_.P);
+    std::vector<Vec<D>> p(body_.V.size(), Vec<D>::Zero());
+    p[a] = free_[a].col(k) / std::sqrt(body_.V[a]);
+    for_each(body_.size(), [&](std::int64_t b) { grad_u_[b] = body_.gradient_of(p, b); });
     if constexpr (Formulation::evolves_J)
       for_each(body_.size(), [&](std::int64_t b) {
-        const double change = cofactor_of(b).cwiseProduct(embed_rate(grad_u_[b])).sum();
-        body_.P[b] -= change * by_J_[b];
-        result_.G(b, column) = result_.length * change;
+        result_.G(b, column) = result_.length * cofactor_of(b).cwiseProduct(embed_rate(grad_u_[b])).sum();
       });
-    body_.strain_rates();
-    body_.momentum_rates();
+    body_.sweep_momenta(p, std::vector<double>(body_.V.size(), 0.0), nothing);
+    body_.send_stresses([&](std::int64_t first, std::span<Mat<D>> P) {
+      body_.material->differentials(body_.strains(), grad_u_, first, P);
+      if constexpr (Formulation::evolves_J)
+        for (std::size_t i = 0; i < P.size(); ++i) {
+          const std::int64_t b = first + static_cast<std::int64_t>(i);
+          P[i] -= result_.G(b, column) / result_.length * by_J_[b];
+        }
+    });
+    body_.sweep_stresses();
     auto& dissipated = body_.R.p; // T and D apart; both are linear in what they come from
     for_each(body_.size(), [&](std::int64_t b) { dissipated[b] -= body_.T[b]; });
     const double t = result_.time;
@@ -97,21 +100,23 @@ class Linearisation {
 
   /// What a unit of J at a particle does.
   void volume(std::int64_t a) {
-    clear(body_.U.p);
-    for (auto& P : body_.P)
-      P.setZero();
-    body_.P[a] = by_J_[a];
-    std::fill(body_.U.J.begin(), body_.U.J.end(), 0.0);
-    body_.U.J[a] = 1;
-    body_.strain_rates();
-    std::fill(body_.R.J.begin(), body_.R.J.end(), 0.0);
-    body_.momentum_rates();
+    const std::vector<Vec<D>> still(body_.V.size(), Vec<D>::Zero());
+    std::vector<double> J(body_.V.size(), 0.0);
+    J[a] = 1;
+    body_.sweep_momenta(still, J, nothing);
+    body_.send_stresses([&](std::int64_t first, std::span<Mat<D>> P) {
+      std::fill(P.begin(), P.end(), Mat<D>::Zero());
+      if (a >= first && a < first + static_cast<std::int64_t>(P.size()))
+        P[static_cast<std::size_t>(a - first)] = by_J_[a];
+    });
+    body_.sweep_stresses();
     if constexpr (Body::nets_J)
       if (projected_)
-        project_volume(body_.R.J, body_.dissipation.rate_J, body_.V);
+        project_volume(body_.R.J, body_.V);
     const double t = result_.time;
     result_.B.col(a) = t * t / (result_.length * body_.density) * accelerations(body_.T);
-    for_each(body_.size(), [&](std::int64_t b) { result_.D(b, a) = t * body_.R.J[b]; });
+    for_each(body_.size(),
+             [&](std::int64_t b) { result_.D(b, a) = Body::dissipates_J ? t * body_.R.J[b] : 0; });
   }
 
   /// dP/dJ of every particle by itself, Pa, by central differences.
@@ -132,7 +137,7 @@ class Linearisation {
       by_J_[a] =
           (body_.material->piola(more, a) - body_.material->piola(less, a)).template topLeftCorner<D, D>() /
           (2 * step);
-      result_.pull[a] = result_.time * body_.pull(a);
+      result_.pull[a] = result_.time * body_.pull_to_F(a);
     });
   }
 
@@ -141,7 +146,7 @@ class Linearisation {
   /// Of forces (changed in place where they are projected) along the free directions.
   Eigen::VectorXd accelerations(std::vector<Vec<D>>& forces) const {
     if (projected_)
-      project_momentum<D>(forces, before_.x, body_.V);
+      project_momentum<D>(forces, body_.U.x, body_.V);
     Eigen::VectorXd along(unknowns_);
     for_each(body_.size(), [&](std::int64_t b) {
       along.segment(first_[b], free_[b].cols()) = std::sqrt(body_.V[b]) * free_[b].transpose() * forces[b];
@@ -149,16 +154,12 @@ class Linearisation {
     return along;
   }
 
-  static void clear(std::vector<Vec<D>>& field) {
-    for (auto& u : field)
-      u.setZero();
-  }
+  static void nothing(std::int64_t, const Mat<D>&) {}
 
   Body& body_;
   std::vector<Eigen::Matrix<double, D, Eigen::Dynamic>> free_;
   bool projected_;
   std::vector<Mat<D>> grad_u_;
-  Formulation before_;
   std::vector<Eigen::Index> first_; ///< unknown of a particle
   Eigen::Index unknowns_ = 0;
   std::vector<Mat<D>> by_J_; ///< dP/dJ

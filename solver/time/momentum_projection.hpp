@@ -13,51 +13,46 @@ namespace tessera::solver {
 /// total linear and angular momentum are constant to round-off. R in N/m^3, Gamma in m, V in m^3.
 ///
 /// Moments are taken about the centre of volume, where the 6x6 system (3x3 in the plane) falls into two
-/// blocks.
+/// blocks. One pass over the particles finds all sums, with arms from the first of them.
 template <int D>
 void project_momentum(std::span<Vec<D>> R, std::span<const Vec<D>> Gamma, std::span<const double> V) {
   const auto n = static_cast<std::int64_t>(R.size());
-  const double volume = sum(n, 0.0, [&](std::int64_t a) { return V[a]; });
-  const Vec<D> centre =
-      sum(n, Vec<D>(Vec<D>::Zero()), [&](std::int64_t a) -> Vec<D> { return V[a] * Gamma[a]; }) / volume;
-  const Vec<D> lambda =
-      -sum(n, Vec<D>(Vec<D>::Zero()), [&](std::int64_t a) -> Vec<D> { return V[a] * R[a]; }) / volume;
+  const Vec<D> first = Gamma[0];
+  using Sums = Eigen::Matrix<double, 2 * D + 2, D + 1>; // of V (arm, 1, R, 0) (x) (arm, 1)
+  const Sums sums = sum(n, Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
+    Eigen::Matrix<double, 2 * D + 2, 1> left;
+    left << Gamma[a] - first, 1, R[a], 0;
+    return V[a] * left * left.template head<D + 1>().transpose();
+  });
+  const double volume = sums(D, D);
+  const Vec<D> centre = sums.template block<D, 1>(0, D) / volume;
+  const Vec<D> force = sums.template block<D, 1>(D + 1, D);
+  const Vec<D> lambda = -force / volume;
+  const Mat<D> second = sums.template topLeftCorner<D, D>() - volume * centre * centre.transpose();
+  const Mat<D> moment = sums.template block<D, D>(D + 1, 0) - force * centre.transpose(); // V R (x) arm
+  const Vec<D> about = first + centre;
 
   if constexpr (D == 3) {
-    using Sums = Eigen::Matrix<double, 3, 4>; // moment of R | inertia
-    const Sums sums = sum(n, Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
-      const Vec3 arm = Gamma[a] - centre;
-      Sums s;
-      s.col(0) = V[a] * arm.cross(R[a]);
-      s.template rightCols<3>() = V[a] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-      return s;
-    });
-    const Mat3 inertia = sums.template rightCols<3>();
-    const Vec3 moment = sums.col(0);
-    const Vec3 omega = -inertia.ldlt().solve(moment);
-    for_each(n, [&](std::int64_t a) { R[a] += lambda + omega.cross(Gamma[a] - centre); });
+    const Mat3 inertia = second.trace() * Mat3::Identity() - second;
+    const Vec3 torque(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0), moment(1, 0) - moment(0, 1));
+    const Vec3 omega = -inertia.ldlt().solve(torque);
+    for_each(n, [&](std::int64_t a) { R[a] += lambda + omega.cross(Gamma[a] - about); });
   } else {
-    using Sums = Eigen::Vector2d; // moment of R, inertia
-    const Sums sums = sum(n, Sums(Sums::Zero()), [&](std::int64_t a) -> Sums {
-      const Vec<2> arm = Gamma[a] - centre;
-      return V[a] * Sums(arm[0] * R[a][1] - arm[1] * R[a][0], arm.squaredNorm());
-    });
-    const double omega = -sums[0] / sums[1];
+    const double omega = -(moment(1, 0) - moment(0, 1)) / second.trace();
     for_each(n, [&](std::int64_t a) {
-      const Vec<2> arm = Gamma[a] - centre;
+      const Vec<D> arm = Gamma[a] - about;
       R[a] += lambda + omega * Vec<2>(-arm[1], arm[0]);
     });
   }
 }
 
-/// Takes the mean of the dissipation D^J (1/s, already part of R) off the rates R of the volume map, so that
-/// it keeps sum V J, (3.120).
-inline void project_volume(std::span<double> R, std::span<const double> D_J, std::span<const double> V) {
-  const auto n = static_cast<std::int64_t>(R.size());
+/// Takes the mean off the dissipation D^J (1/s) of the volume map, so that it keeps sum V J, (3.120).
+inline void project_volume(std::span<double> D_J, std::span<const double> V) {
+  const auto n = static_cast<std::int64_t>(D_J.size());
   const Eigen::Vector2d sums = sum(n, Eigen::Vector2d(0, 0), [&](std::int64_t a) -> Eigen::Vector2d {
     return V[a] * Eigen::Vector2d(D_J[a], 1);
   });
-  for_each(n, [&](std::int64_t a) { R[a] -= sums[0] / sums[1]; });
+  for_each(n, [&](std::int64_t a) { D_J[a] -= sums[0] / sums[1]; });
 }
 
 } // namespace tessera::solver

@@ -3,7 +3,6 @@
 
 #include "solver/boundary/conditions.hpp"
 #include "solver/physics/body.hpp"
-#include "solver/time/advance.hpp"
 #include "solver/time/momentum_projection.hpp"
 
 #include <algorithm>
@@ -57,7 +56,7 @@ class Step {
 
   /// U^n to U^(n+1), from `time` over dt. On Breakdown the body is back at U^n and the exception goes on.
   void operator()(Body& body, double time, double dt) {
-    before_ = body.U;
+    std::swap(before_, body.U); // all of U is written anew, beside U^n
     try {
       take(body, time, dt);
     } catch (const Breakdown&) {
@@ -80,7 +79,7 @@ class Step {
   virtual std::size_t own_bytes() const { return 0; }
   /// What the method needs before its first step.
   virtual void prepare(Body& body, double dt) = 0;
-  /// U^n to U^(n+1), histories and all.
+  /// From U^n, in before_, to U^(n+1), histories and all; U is anything before.
   virtual void take(Body& body, double time, double dt) = 0;
 
   /// Makes the nodal forces self-equilibrated about Gamma and the dissipation of J free of net volume,
@@ -90,49 +89,41 @@ class Step {
       return;
     project_momentum<D>(body.R.p, Gamma, body.V);
     if constexpr (Body::nets_J)
-      project_volume(body.R.J, body.dissipation.rate_J, body.V);
+      project_volume(body.R.J, body.V);
   }
 
-  /// Forces from outside on the rates, for positions x at `time`: the projection must not see them. Walls
-  /// note `share` dt of theirs.
-  void load(Body& body, const std::vector<Vec<D>>& x, double time, double dt, double share) {
+  /// Loads on the body as it is strained, at `time`.
+  void load(const Body& body, const StrainFields<D>& strains, double time) {
     if (!loaded_)
       return;
     for_each(body.size(), [&](std::int64_t a) { force_[a].setZero(); });
     for (const auto& load : outside_.loads)
-      load->add({outside_.X, body.V, body.density, body.strains(), time}, force_);
+      load->add({outside_.X, body.V, body.density, strains, time}, force_);
+  }
+  /// They, and walls that push particles at x of the momenta p, on the rates: the projection must not see
+  /// them. Walls note `share` dt of theirs.
+  void act(Body& body, const std::vector<Vec<D>>& x, const std::vector<Vec<D>>& p, double time, double dt,
+           double share) {
+    if (!loaded_)
+      return;
     for_each(body.size(), [&](std::int64_t a) { body.R.p[a] += force_[a]; });
     for (Wall<D>& wall : outside_.walls)
-      wall.push(x, body.U.p, body.density, time, dt, share, body.R.p, force_);
+      wall.push(x, p, body.density, time, dt, share, body.R.p, force_);
   }
 
-  /// Notes the impulse of the rates over dt: the numerical part, which is not the divergence of P, and that
-  /// of forces from outside.
-  void note(const Body& body, double dt) {
+  /// Notes the impulse of a particle's rates over dt: the numerical part, which is not the divergence of P,
+  /// and that of forces from outside.
+  void note(const Body& body, std::int64_t a, double dt) {
     if (!loaded_) {
-      for_each(body.size(), [&](std::int64_t a) { numerical_[a] += dt * (body.R.p[a] - body.T[a]); });
-      return;
-    }
-    for_each(body.size(), [&](std::int64_t a) {
+      numerical_[a] += dt * (body.R.p[a] - body.T[a]);
+    } else {
       numerical_[a] += dt * (body.R.p[a] - body.T[a] - force_[a]);
       external_impulse_[a] += dt * force_[a];
-    });
+    }
   }
-
-  /// Notes by how much the rates of J change it over dt beyond what the motion asks for, H : G.
-  void note_J(const Body& body, double dt) {
-    for_each(body.size(), [&](std::int64_t a) {
-      numerical_J_[a] += dt * (body.R.J[a] - body.strain(a).H.cwiseProduct(embed_rate(body.R.F[a])).sum());
-    });
-  }
-  /// The same where the rates of J hold none of the motion's.
-  void note_change_of_J(double dt, const std::vector<double>& rate) { advance(numerical_J_, dt, rate); }
-  /// As note_J of H, beyond F x G.
-  void note_H(const Body& body, double dt) {
-    for_each(body.size(), [&](std::int64_t a) {
-      numerical_H_[a] += dt * (body.R.H[a] - cross(embed(body.U.F[a]), embed_rate(body.R.F[a])));
-    });
-  }
+  /// Notes by how much J and H change beyond what the motion asks for.
+  void note_J(std::int64_t a, double change) { numerical_J_[a] += change; }
+  void note_H(std::int64_t a, const Mat3& change) { numerical_H_[a] += change; }
 
   /// Contact and essential conditions on momenta that take the particles from x at `time` onwards over dt and
   /// of whose change the share reaches the end of the step.
@@ -149,14 +140,14 @@ class Step {
   typename Body::Formulation before_; ///< U^n
 
  private:
-  /// Impulse times mean velocity is exactly the kinetic energy an impulse brings.
+  /// Impulse times mean velocity is exactly the kinetic energy an impulse brings. All impulses begin anew.
   void account(const Body& body) {
     const auto work_of = [&](std::vector<Vec<D>>& impulse) {
-      const double work = sum(body.size(), 0.0, [&](std::int64_t a) {
-        return body.V[a] * impulse[a].dot(before_.p[a] + body.U.p[a]) / (2 * body.density);
+      return sum(body.size(), 0.0, [&](std::int64_t a) {
+        const double work = body.V[a] * impulse[a].dot(before_.p[a] + body.U.p[a]) / (2 * body.density);
+        impulse[a].setZero();
+        return work;
       });
-      for_each(body.size(), [&](std::int64_t a) { impulse[a].setZero(); });
-      return work;
     };
     dissipated_ -= work_of(numerical_);
     if constexpr (Body::Formulation::evolves_J)
@@ -166,22 +157,21 @@ class Step {
   }
 
   /// J, by which the changes of H and J that are not the motion's have raised the stored energy: taken half
-  /// way through the step, where they were made.
+  /// way through the step, where they were made. They begin anew.
   double stored_by_numerics(const Body& body) {
-    const double stored = sum(body.size(), 0.0, [&](std::int64_t a) {
+    return sum(body.size(), 0.0, [&](std::int64_t a) {
       Strain less = Strain::of(embed(Mat<D>(0.5 * (before_.F[a] + body.U.F[a]))));
       less.J = 0.5 * (before_.J[a] + body.U.J[a] - numerical_J_[a]);
       Strain more = less;
       more.J += numerical_J_[a];
+      numerical_J_[a] = 0;
       if constexpr (Body::Formulation::evolves_H) {
         less.H = 0.5 * (before_.H[a] + body.U.H[a] - numerical_H_[a]);
         more.H = less.H + numerical_H_[a];
+        numerical_H_[a].setZero();
       }
       return body.V[a] * (body.material->energy(more, a) - body.material->energy(less, a));
     });
-    std::fill(numerical_J_.begin(), numerical_J_.end(), 0.0);
-    std::fill(numerical_H_.begin(), numerical_H_.end(), Mat3::Zero());
-    return stored;
   }
 
   bool projects_;

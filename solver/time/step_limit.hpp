@@ -87,9 +87,14 @@ class StepLimit {
   static std::vector<double> stiffness_of(const Body& body) {
     std::vector<double> stiffness(body.V.size());
     for_each(body.size(), [&](std::int64_t a) {
-      double diagonal = body.gradient.s[a].squaredNorm();
-      for (std::int64_t e = body.neighbours.row[a]; e < body.neighbours.row[a + 1]; ++e)
-        diagonal += body.V[a] / body.V[body.neighbours.column[e]] * body.gradient.t[e].squaredNorm();
+      Vec<Body::dimension> own = Vec<Body::dimension>::Zero();
+      double diagonal = 0;
+      for (std::int64_t e = body.neighbours.row[a]; e < body.neighbours.row[a + 1]; ++e) {
+        const std::int32_t b = body.neighbours.column[e];
+        own += body.gradient.w(a, e, b);
+        diagonal += body.V[a] / body.V[b] * body.gradient.t(a, e, b).squaredNorm();
+      }
+      diagonal += own.squaredNorm();
       stiffness[a] = std::sqrt(diagonal);
     });
     return stiffness;

@@ -1,10 +1,8 @@
 /// The Stoermer-Verlet step: one evaluation of the forces a step, and twice the step Heun's method bears.
 #pragma once
 
-#include "solver/time/advance.hpp"
 #include "solver/time/step.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace tessera::solver {
@@ -22,68 +20,77 @@ class Verlet final : public Step<Body> {
       : Step<Body>(std::move(conditions), momentum_projection) {}
 
  private:
+  using Formulation = typename Body::Formulation;
+
   void prepare(Body& body, double dt) override {
-    body.strain_rates();
+    body.sweep_momenta(body.U, [](std::int64_t, const Mat<D>&) {});
     forces(body, 0, dt);
   }
 
   void take(Body& body, double time, double dt) override {
-    kick(body, 0.5 * dt);
-    if constexpr (Body::dissipates_J) {
-      this->note_change_of_J(dt, body.R.J);
-      advance(body.U.J, dt, body.R.J);
-    }
-    this->limit(body, body.U.x, time, dt);
+    auto& U = body.U;
+    const auto& U_n = this->before_;
+
+    kick(body, U_n.p, 0.5 * dt);
+    if constexpr (Body::dissipates_J)
+      for_each(body.size(), [&](std::int64_t a) {
+        this->note_J(a, dt * body.R.J[a]);
+        U.J[a] = U_n.J[a] + dt * body.R.J[a];
+      });
+    this->limit(body, U_n.x, time, dt);
     this->hold(body, time + 0.5 * dt);
 
-    body.strain_rates();
-    drift(body, dt);
+    body.sweep_momenta(U, [&](std::int64_t a, const Mat<D>& G) { drift(body, a, dt, G); });
     body.commit();
 
     forces(body, time + dt, dt);
-    kick(body, 0.5 * dt);
-    this->limit(body, body.U.x, time + dt, dt);
+    kick(body, U.p, 0.5 * dt);
+    this->limit(body, U.x, time + dt, dt);
     this->hold(body, time + dt);
   }
 
   void forces(Body& body, double time, double dt) {
-    if constexpr (Body::dissipates_J)
-      std::fill(body.R.J.begin(), body.R.J.end(), 0.0);
-    body.momentum_rates();
+    this->load(body, body.strains(), time);
+    body.sweep_stresses();
     this->conserve(body, body.U.x);
-    this->load(body, body.U.x, time, dt, 1);
+    this->act(body, body.U.x, body.U.p, time, dt, 1);
   }
 
-  void kick(Body& body, double dt) {
-    this->note(body, dt);
-    advance(body.U.p, dt, body.R.p);
+  void kick(Body& body, const std::vector<Vec<D>>& p, double dt) {
+    for_each(body.size(), [&](std::int64_t a) {
+      this->note(body, a, dt);
+      body.U.p[a] = p[a] + dt * body.R.p[a];
+    });
   }
 
-  /// cof(F + dt G) = cof F + dt (F + dt/2 G) x G exactly.
-  void drift(Body& body, double dt) {
+  /// A particle's way by its velocity, and its strains by dF/dt = G.
+  void drift(Body& body, std::int64_t a, double dt, const Mat<D>& G) {
     auto& U = body.U;
-    auto& R = body.R;
-    advance(U.x, dt, R.x);
-    if constexpr (Body::Formulation::evolves_J) {
-      advance(U.F, 0.5 * dt, R.F);
-      body.map_rates();
-      if constexpr (Body::Formulation::evolves_H) {
-        drift_H(body, 0.5 * dt);
-        body.map_rates();
+    const auto& U_n = this->before_;
+    U.x[a] = U_n.x[a] + dt * body.velocity(a);
+    if constexpr (Formulation::evolves_J) {
+      U.F[a] = U_n.F[a] + 0.5 * dt * G;
+      if constexpr (!Body::dissipates_J)
+        U.J[a] = U_n.J[a];
+      if constexpr (Formulation::evolves_H) {
+        U.H[a] = U_n.H[a];
+        drift_H(body, a, 0.5 * dt, body.map_rates(U, a, G));
       }
-      this->note_J(body, dt);
-      advance(U.J, dt, R.J);
-      if constexpr (Body::Formulation::evolves_H)
-        drift_H(body, 0.5 * dt);
-      advance(U.F, 0.5 * dt, R.F);
-    } else if constexpr (Body::Formulation::evolves_F) {
-      advance(U.F, dt, R.F);
+      const auto rates = body.map_rates(U, a, G);
+      this->note_J(a, dt * rates.J_pull);
+      U.J[a] += dt * (rates.J + rates.J_pull);
+      if constexpr (Formulation::evolves_H)
+        drift_H(body, a, 0.5 * dt, rates);
+      U.F[a] += 0.5 * dt * G;
+    } else if constexpr (Formulation::evolves_F) {
+      U.F[a] = U_n.F[a] + dt * G;
     }
   }
 
-  void drift_H(Body& body, double dt) {
-    this->note_H(body, dt);
-    advance(body.U.H, dt, body.R.H);
+  /// cof(F + dt G) = cof F + dt (F + dt/2 G) x G exactly.
+  void drift_H(Body& body, std::int64_t a, double dt, const typename Body::MapRates& rates) {
+    this->note_H(a, dt * rates.H_pull);
+    body.U.H[a] += dt * (rates.H + rates.H_pull);
   }
 };
 

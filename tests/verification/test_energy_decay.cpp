@@ -51,15 +51,17 @@ Body<PF<D>, Dissipation> body_of(const ParticleCloud& cloud, bool consistent) {
   Dissipation dissipation{};
   if constexpr (requires { dissipation.weigh(cloud.X, cloud.V, graph); }) {
     dissipation.weigh(cloud.X, cloud.V, graph);
+  } else if constexpr (requires { dissipation.weigh(cloud.V); }) {
+    dissipation.weigh(cloud.V);
   } else {
     dissipation.laplacian = build_laplacian<D>(cloud.X, cloud.V, graph);
     dissipation.delta = cloud.spacing;
   }
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   if (consistent)
-    balance_constant_stress<D>(gradient, cloud.X, cloud.V, cloud.A, graph);
+    balance_constant_stress<D>(gradient, cloud.X, cloud.A, graph);
   const NeoHookean law{ElasticConstants::from(17e6, 0.45)};
-  return Body<PF<D>, Dissipation>({std::move(X), cloud.V, 1100,
+  return Body<PF<D>, Dissipation>({std::move(X), 1100,
                                    std::make_unique<MaterialOf<D, NeoHookean>>(law, cloud.size()),
                                    std::move(graph), std::move(gradient), std::move(dissipation)});
 }

@@ -95,7 +95,7 @@ struct Operators {
   explicit Operators(const Patch& patch)
       : cloud(patch.cloud()), graph(build_graph<D>(elastic(), cloud)),
         gradient(build_gradient<D>(cloud.X, cloud.V, graph)) {
-    balance_constant_stress<D>(gradient, cloud.X, cloud.V, cloud.A, graph);
+    balance_constant_stress<D>(gradient, cloud.X, cloud.A, graph);
   }
 
   /// The largest force on a particle of a stress P and the scene's loads, over |P| and the largest area.
@@ -107,9 +107,10 @@ struct Operators {
       load->add({cloud.X, cloud.V, 1000, {undeformed, {}, {}}, 0}, force);
     double worst = 0, largest = 0;
     for (std::size_t a = 0; a < cloud.X.size(); ++a) {
-      Vec<D> T = P * gradient.s[a];
+      const auto i = static_cast<std::int64_t>(a);
+      Vec<D> T = Vec<D>::Zero();
       for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
-        T += P * gradient.t[e];
+        T += P * (gradient.w(i, e, graph.column[e]) + gradient.t(i, e, graph.column[e]));
       Vec<D> left = cloud.V[a] * (force[a] + T);
       if (!besides.empty())
         left += besides[a];
@@ -191,7 +192,7 @@ void has_exact_slopes(const Patch& patch) {
   for (std::int64_t a = 0; a < body.graph.size(); ++a) {
     Mat<D> G = Mat<D>::Zero();
     for (std::int64_t e = body.graph.row[a]; e < body.graph.row[a + 1]; ++e)
-      G += (f(body.graph.column[e]) - f(a)) * body.gradient.w[e].transpose();
+      G += (f(body.graph.column[e]) - f(a)) * body.gradient.w(a, e, body.graph.column[e]).transpose();
     ASSERT_LT((G - slope).norm() / slope.norm(), 1e-12) << patch.name << ", particle " << a;
   }
 }

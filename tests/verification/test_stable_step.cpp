@@ -162,8 +162,8 @@ TEST(StepMatrix, VolumeMapAndJstBearWhatTheStepsOwnMatrixSays) {
     const double largest = *findings.spectrum->largest_step;
     const auto growth = [&](double dt) {
       return dissipation == std::string("jst")
-                 ? growth_in_run<JstWithJ<3>, PFJ<3>>(scene, cloud, dt, 4000)
-                 : growth_in_run<ResidualDissipationWithJ<3>, PFJ<3>>(scene, cloud, dt, 4000);
+                 ? growth_in_run<Jst<3, true>, PFJ<3>>(scene, cloud, dt, 4000)
+                 : growth_in_run<ResidualDissipation<3, true>, PFJ<3>>(scene, cloud, dt, 4000);
     };
     EXPECT_LE(growth(0.95 * largest), tolerated_growth) << dissipation;
     EXPECT_GT(growth(1.05 * largest), tolerated_growth) << dissipation;

@@ -45,9 +45,11 @@ void exact_on_linear(const ParticleCloud& cloud, const Neighbours& graph, const 
     return slope * cloud.X[a].template head<D>() + Vec<D>::Constant(0.25);
   };
   for (std::int64_t a = 0; a < graph.size(); ++a) {
-    Mat<D> G = -f(a) * gradient.s[a].transpose();
-    for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
-      G += f(graph.column[e]) * gradient.w[e].transpose();
+    Mat<D> G = Mat<D>::Zero();
+    for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
+      const std::int32_t b = graph.column[e];
+      G += (f(b) - f(a)) * gradient.w(a, e, b).transpose();
+    }
     // The sums hold terms of the size of f / spacing: round-off is relative to that.
     const double scale = slope.norm() + 0.5 / cloud.spacing;
     ASSERT_LT((G - slope).norm() / scale, 1e-12) << a;
@@ -84,11 +86,12 @@ TEST(Gradient, DivergenceIsMinusItsWeightedTranspose) {
         Q.data()[i] = number();
     double power_of_forces = 0, power_of_stresses = 0;
     for (std::int64_t a = 0; a < graph.size(); ++a) {
-      Mat3 G = -v[a] * gradient.s[a].transpose();
-      Vec3 T = P[a] * gradient.s[a];
+      Mat3 G = Mat3::Zero();
+      Vec3 T = Vec3::Zero();
       for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
-        G += v[graph.column[e]] * gradient.w[e].transpose();
-        T += P[graph.column[e]] * gradient.t[e];
+        const std::int32_t b = graph.column[e];
+        G += (v[b] - v[a]) * gradient.w(a, e, b).transpose();
+        T += P[a] * gradient.w(a, e, b) + P[b] * gradient.t(a, e, b);
       }
       power_of_forces += cloud.V[a] * v[a].dot(T);
       power_of_stresses += cloud.V[a] * (P[a].array() * G.array()).sum();
@@ -106,9 +109,11 @@ TEST(Gradient, ForcesOfAnyStressSumToZero) {
       const auto stress = [&](std::int64_t b) {
         return Mat3(Mat3::Identity() * std::sin(static_cast<double>(b)));
       };
-      Vec3 T = stress(a) * gradient.s[a];
-      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e)
-        T += stress(graph.column[e]) * gradient.t[e];
+      Vec3 T = Vec3::Zero();
+      for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
+        const std::int32_t b = graph.column[e];
+        T += stress(a) * gradient.w(a, e, b) + stress(b) * gradient.t(a, e, b);
+      }
       total += cloud.V[a] * T;
       scale += cloud.V[a] * T.norm();
     }

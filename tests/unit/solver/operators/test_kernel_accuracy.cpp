@@ -49,11 +49,12 @@ Errors errors(const ParticleCloud& cloud, const Operators& of, const Wave& f) {
     const Vec3& x = cloud.X[a];
     if (std::min(x.minCoeff(), 1 - x.maxCoeff()) < graph.support[a])
       continue;
-    Vec3 g = -f(x) * of.gradient.s[a];
+    Vec3 g = Vec3::Zero();
     double l = -f(x) * of.laplacian.sum[a];
     for (std::int64_t e = graph.row[a]; e < graph.row[a + 1]; ++e) {
-      g += f(cloud.X[graph.column[e]]) * of.gradient.w[e];
-      l += f(cloud.X[graph.column[e]]) * of.laplacian.l[e];
+      const std::int32_t b = graph.column[e];
+      g += (f(cloud.X[b]) - f(x)) * of.gradient.w(a, e, b);
+      l += f(cloud.X[b]) * of.laplacian.l[e];
     }
     inside += 1;
     neighbours += static_cast<double>(graph.count(a));

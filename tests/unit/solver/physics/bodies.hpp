@@ -27,12 +27,13 @@ make_body(const ParticleCloud& cloud, Dissipation dissipation,
     X.push_back(x.head<D>());
   if constexpr (requires { dissipation.weigh(cloud.X, cloud.V, graph); })
     dissipation.weigh(cloud.X, cloud.V, graph);
+  else if constexpr (requires { dissipation.weigh(cloud.V); })
+    dissipation.weigh(cloud.V);
   else if constexpr (requires { dissipation.laplacian; })
     dissipation.laplacian = build_laplacian<D>(cloud.X, cloud.V, graph);
   const NeoHookean law{ElasticConstants::from(17e6, 0.45)};
   Gradient<D> gradient = build_gradient<D>(cloud.X, cloud.V, graph);
   BodyParts<D, Dissipation> parts{std::move(X),
-                                  cloud.V,
                                   1100,
                                   std::make_unique<MaterialOf<D, NeoHookean>>(law, cloud.size()),
                                   std::move(graph),

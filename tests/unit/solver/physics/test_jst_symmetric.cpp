@@ -111,7 +111,7 @@ TYPED_TEST(SymmetricJst, IsTheThesisJstInsideALattice) {
 TYPED_TEST(SymmetricJst, OfTheVolumeMapKeepsItsSumAndTakesItsRoughness) {
   constexpr int D = TypeParam::value;
   const ParticleCloud cloud = irregular_block<D>();
-  JstSymmetricWithJ<D> dissipation;
+  JstSymmetric<D, true> dissipation;
   dissipation.kappa4_J = 0.25;
   auto body = make_body<PFJ<D>>(cloud, dissipation);
   std::mt19937_64 random(8);

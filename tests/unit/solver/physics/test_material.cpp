@@ -28,12 +28,12 @@ TEST(Material, StressesWithinAStepLeaveTheHistoriesAsTheyAre) {
   MaterialOf<3, Copper> material(copper, 2);
   const auto F = pulled(1.3);
   std::vector<Mat3> first(2), second(2), committed(2);
-  material.stresses({F, {}, {}}, first);
+  material.stresses({F, {}, {}}, 0, first);
   EXPECT_EQ(material.equivalent_plastic_strain(1), 0);
-  material.stresses({F, {}, {}}, second);
+  material.stresses({F, {}, {}}, 0, second);
   EXPECT_EQ(first[1], second[1]);
   std::vector<double> moduli(2);
-  material.commit({F, {}, {}}, committed, moduli);
+  material.commit({F, {}, {}}, 0, committed, moduli);
   EXPECT_EQ(committed[1], first[1]);
   EXPECT_EQ(material.equivalent_plastic_strain(0), 0);
   // ln 1.3 less the elastic part, stress / (3 mu).
@@ -47,9 +47,9 @@ TEST(Material, ACommitIsMadeOnceAStep) {
   const auto F = pulled(1.3);
   std::vector<Mat3> P(2);
   std::vector<double> moduli(2);
-  material.commit({F, {}, {}}, P, moduli);
+  material.commit({F, {}, {}}, 0, P, moduli);
   const double strain = material.equivalent_plastic_strain(1);
-  material.commit({F, {}, {}}, P, moduli);
+  material.commit({F, {}, {}}, 0, P, moduli);
   EXPECT_NEAR(material.equivalent_plastic_strain(1) / strain, 1, 1e-12);
 }
 
@@ -57,7 +57,7 @@ TEST(Material, KnowsTheFastestWaveOfTheStrainedBody) {
   MaterialOf<3, Hencky> material(Hencky{ElasticConstants::from(117e9, 0.35)}, 2);
   std::vector<Mat3> P(2);
   std::vector<double> moduli(2);
-  material.commit({pulled(1.5), {}, {}}, P, moduli);
+  material.commit({pulled(1.5), {}, {}}, 0, P, moduli);
   const double at_rest = material.linearised().pressure_wave_modulus();
   EXPECT_NEAR(moduli[0] / at_rest, 1, 1e-12);
   EXPECT_GE(moduli[1] / at_rest, 1.5 * (1 - 1e-12)); // over the smallest stretch squared, 1 / 1.5
