@@ -26,7 +26,7 @@ inline Mat3 cross(const Mat3& A, const Mat3& B) {
 }
 
 /// Cofactor of F: det(F) F^-T wherever F is regular, polynomial in F everywhere.
-inline Mat3 cofactor(const Mat3& F) {
+[[gnu::always_inline]] inline Mat3 cofactor(const Mat3& F) {
   Mat3 H;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -36,6 +36,10 @@ inline Mat3 cofactor(const Mat3& F) {
     }
   }
   return H;
+}
+
+[[gnu::always_inline]] inline double determinant(const Mat3& F) {
+  return F.row(0).dot(cofactor(F).row(0));
 }
 
 } // namespace tessera

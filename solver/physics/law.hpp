@@ -23,21 +23,23 @@ concept ConstitutiveLaw = requires(const L law, const Strain& strain, typename L
   { law.linearised() } -> std::same_as<ElasticConstants>;
 };
 
-/// A law that knows how stiff it is under strain: stiffened_modulus(strain), Pa, the largest rho0 c^2 of
-/// pressure waves along the principal directions. With the undeformed modulus over the smallest stretch
-/// squared it bounds the waves of all directions (tested at stretches of 0.3 to 3).
+/// A law that knows how stiff it is under strain: stiffened_modulus(strain, squared_stretches(strain.F)), Pa,
+/// the largest rho0 c^2 of pressure waves along the principal directions. With the undeformed modulus over
+/// the smallest stretch squared it bounds the waves of all directions (tested at stretches of 0.3 to 3).
 template <class L>
-concept StiffeningLaw = ConstitutiveLaw<L> && requires(const L law, const Strain& strain) {
-  { law.stiffened_modulus(strain) } -> std::same_as<double>;
+concept StiffeningLaw = ConstitutiveLaw<L> &&
+    requires(const L law, const Strain& strain, const Vec3& squared) {
+  { law.stiffened_modulus(strain, squared) } -> std::same_as<double>;
 };
 
 /// rho0 c^2, Pa, that no wave of the strained body exceeds: the undeformed modulus over the smallest stretch
 /// squared, (3.93), or what the law says of itself where it has stiffened more.
 template <ConstitutiveLaw L>
 double largest_wave_modulus(const L& law, const Strain& strain) {
-  const double usual = law.linearised().pressure_wave_modulus() / squared_stretches(strain.F).minCoeff();
+  const Vec3 squared = squared_stretches(strain.F);
+  const double usual = law.linearised().pressure_wave_modulus() / squared[0];
   if constexpr (StiffeningLaw<L>)
-    return std::max(usual, law.stiffened_modulus(strain));
+    return std::max(usual, law.stiffened_modulus(strain, squared));
   else
     return usual;
 }
@@ -46,9 +48,10 @@ double largest_wave_modulus(const L& law, const Strain& strain) {
 /// than a quarter, for which a CFL number of 0.3 leaves room; else the law's own.
 template <ConstitutiveLaw L>
 double step_wave_modulus(const L& law, const Strain& strain) {
-  const double usual = law.linearised().pressure_wave_modulus() / squared_stretches(strain.F).minCoeff();
+  const Vec3 squared = squared_stretches(strain.F);
+  const double usual = law.linearised().pressure_wave_modulus() / squared[0];
   if constexpr (StiffeningLaw<L>) {
-    const double own = law.stiffened_modulus(strain);
+    const double own = law.stiffened_modulus(strain, squared);
     return own > 1.25 * 1.25 * usual ? own : usual;
   } else {
     return usual;

@@ -1,8 +1,12 @@
 /// The strain measures of the mixed formulation, by value and as fields.
 #pragma once
 
+#include "core/symmetric.hpp"
 #include "core/tensor.hpp"
+#include "solver/physics/isotropic.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -15,11 +19,13 @@ struct Strain {
   double J; ///< volume map
 
   /// H and J taken from F.
-  static Strain of(const Mat3& F) {
-    const Mat3 H = cofactor(F);
-    return {F, H, F.row(0).dot(H.row(0))};
-  }
+  [[gnu::always_inline]] static Strain of(const Mat3& F) { return {F, cofactor(F), determinant(F)}; }
 };
+
+/// b = F F^T.
+[[gnu::always_inline]] inline Symmetric left_cauchy_green(const Mat3& F) {
+  return symmetric_product(F, F);
+}
 
 /// F in three dimensions: plane strain leaves the thickness as it is.
 inline Mat3 embed(const Mat<3>& F) {
@@ -48,22 +54,23 @@ struct StrainFields {
   std::span<const Mat3> H;
   std::span<const double> J;
 
-  Strain operator[](std::int64_t a) const {
+  [[gnu::always_inline]] Strain operator[](std::int64_t a) const {
     const auto i = static_cast<std::size_t>(a);
-    Strain strain = Strain::of(embed(F[i]));
-    if (!H.empty())
-      strain.H = H[i];
-    if (!J.empty())
-      strain.J = J[i];
-    return strain;
+    const Mat3 F_a = embed(F[i]);
+    return {F_a, H.empty() ? cofactor(F_a) : H[i], J.empty() ? determinant(F_a) : J[i]};
   }
 };
 
+/// J^(-2/3); half as dear as by the cube root.
+inline double isochoric_factor(double J) {
+  return std::exp(-1.0 / 3 * std::log(J * J));
+}
+
 /// Squares of the principal stretches of F, the smallest first.
 inline Vec3 squared_stretches(const Mat3& F) {
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues();
+  const Deviation b(left_cauchy_green(F));
+  const Vec3 x = PrincipalValues(b).values();
+  return b.mean * (1 + Vec3(std::min(x[0], x[2]), x[1], std::max(x[0], x[2])).array());
 }
 
 } // namespace tessera::solver

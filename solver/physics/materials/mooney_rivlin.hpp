@@ -6,8 +6,6 @@
 #include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
 
-#include <cmath>
-
 namespace tessera::solver {
 
 struct MooneyRivlin {
@@ -23,7 +21,7 @@ struct MooneyRivlin {
   Mat3 piola(const Strain& strain, History&) const {
     const auto& [F, H, J] = strain;
     // Gathered so that nothing is left at F = I but exact zeros.
-    const double root = 1 / std::cbrt(J * J);
+    const double root = isochoric_factor(J);
     return 2 * c1 * root * (F - F.squaredNorm() / (3 * J) * H) +
            2 * c2 * root * root * (cross(H, F) - 2 * H.squaredNorm() / (3 * J) * H) + kappa * (J - 1) * H;
   }
@@ -31,16 +29,17 @@ struct MooneyRivlin {
   /// Stored energy, J/m^3.
   double energy(const Strain& strain, const History&) const {
     const auto& [F, H, J] = strain;
-    const double root = 1 / std::cbrt(J * J);
+    const double root = isochoric_factor(J);
     return c1 * (root * F.squaredNorm() - 3) + c2 * (root * root * H.squaredNorm() - 3) +
            0.5 * kappa * (J - 1) * (J - 1);
   }
 
   /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
-  double stiffened_modulus(const Strain& strain) const {
-    PrincipalWaves waves(strain);
-    waves.add_power(2 * c1, 2);
-    waves.add_power(-2 * c2, -2);
+  double stiffened_modulus(const Strain& strain, const Vec3& squared) const {
+    const Vec3 isochoric = isochoric_factor(strain.J) * squared;
+    PrincipalWaves waves(squared);
+    waves.add_power(2 * c1, 2, isochoric);
+    waves.add_power(-2 * c2, -2, isochoric.cwiseInverse());
     waves.add_volume(strain.J * strain.J * kappa);
     return waves.largest_modulus();
   }

@@ -2,10 +2,7 @@
 #pragma once
 
 #include "solver/physics/materials/elastic_constants.hpp"
-#include "solver/physics/materials/principal_waves.hpp"
 #include "solver/physics/strain.hpp"
-
-#include <cmath>
 
 namespace tessera::solver {
 
@@ -19,23 +16,22 @@ struct NeoHookean {
   Mat3 piola(const Strain& strain, History&) const {
     const auto& [F, H, J] = strain;
     // Gathered so that nothing is left at F = I but exact zeros.
-    const double isochoric = elastic.mu / std::cbrt(J * J);
+    const double isochoric = elastic.mu * isochoric_factor(J);
     return isochoric * (F - F.squaredNorm() / (3 * J) * H) + elastic.kappa * (J - 1) * H;
   }
 
   /// Stored energy, J/m^3.
   double energy(const Strain& strain, const History&) const {
     const auto& [F, H, J] = strain;
-    return 0.5 * elastic.mu * (F.squaredNorm() / std::cbrt(J * J) - 3) +
+    return 0.5 * elastic.mu * (F.squaredNorm() * isochoric_factor(J) - 3) +
            0.5 * elastic.kappa * (J - 1) * (J - 1);
   }
 
-  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
-  double stiffened_modulus(const Strain& strain) const {
-    PrincipalWaves waves(strain);
-    waves.add_power(elastic.mu, 2);
-    waves.add_volume(strain.J * strain.J * elastic.kappa);
-    return waves.largest_modulus();
+  /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw. The modulus falls
+  /// with the stretch: the smallest stretch has the largest.
+  double stiffened_modulus(const Strain& strain, const Vec3& squared) const {
+    const double fibre = isochoric_factor(strain.J) * (5 * squared.sum() - 3 * squared[0]) / 9;
+    return (elastic.mu * fibre + elastic.kappa * strain.J * strain.J) / squared[0];
   }
 
   ElasticConstants linearised() const { return elastic; }

@@ -14,27 +14,29 @@ struct SaintVenantKirchhoff {
 
   /// First Piola-Kirchhoff stress, Pa: P = F (2 mu E + lambda tr(E) I).
   Mat3 piola(const Strain& strain, History&) const {
-    const Mat3 E = green_strain(strain.F);
-    return strain.F * (2 * elastic.mu * E + elastic.lambda * E.trace() * Mat3::Identity());
+    const Symmetric E = green_strain(strain.F);
+    const Symmetric S = add_isotropic(2 * elastic.mu * E, elastic.lambda * E.trace());
+    return strain.F * S.matrix();
   }
 
   /// Stored energy, J/m^3.
   double energy(const Strain& strain, const History&) const {
-    const Mat3 E = green_strain(strain.F);
-    return elastic.mu * E.squaredNorm() + 0.5 * elastic.lambda * E.trace() * E.trace();
+    const Symmetric E = green_strain(strain.F);
+    return elastic.mu * inner(E, E) + 0.5 * elastic.lambda * E.trace() * E.trace();
   }
 
   /// Largest modulus of pressure waves along the principal directions, Pa: StiffeningLaw.
-  double stiffened_modulus(const Strain& strain) const {
-    const Vec3 squared = squared_stretches(strain.F);
-    const double trace_E = 0.5 * (squared.sum() - 3), largest = squared.maxCoeff();
+  double stiffened_modulus(const Strain&, const Vec3& squared) const {
+    const double trace_E = 0.5 * (squared.sum() - 3), largest = squared[2];
     return elastic.lambda * (trace_E + largest) + elastic.mu * (3 * largest - 1);
   }
 
   ElasticConstants linearised() const { return elastic; }
 
  private:
-  static Mat3 green_strain(const Mat3& F) { return 0.5 * (F.transpose() * F - Mat3::Identity()); }
+  static Symmetric green_strain(const Mat3& F) {
+    return 0.5 * add_isotropic(left_cauchy_green(F.transpose()), -1); // C = F^T F
+  }
 };
 
 } // namespace tessera::solver

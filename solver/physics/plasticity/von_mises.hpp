@@ -14,52 +14,38 @@ struct VonMises {
   Hardening hardening;
 
   struct History {
-    Mat3 plastic_metric = Mat3::Identity(); ///< C_p^-1, of unit determinant
+    Symmetric plastic_metric = Symmetric::identity(); ///< C_p^-1, of unit determinant
     double equivalent_plastic_strain = 0;
   };
 
   /// First Piola-Kirchhoff stress, Pa; advances `history` to the end of the step that leads to `strain`.
   Mat3 piola(const Strain& strain, History& history) const {
     // Elastic predictor.
-    const PrincipalLogStrain trial(strain.F * history.plastic_metric * strain.F.transpose());
-    const double mu = hencky.elastic.mu;
-    const Vec3 tau_trial = 2 * mu * trial.deviator;
-    const double von_mises_trial = std::sqrt(1.5) * tau_trial.norm();
+    const Deviation b(transform(strain.F, history.plastic_metric));
+    Symmetric log_b = log_deviator(b);
+    const double trial = hencky.elastic.mu * std::sqrt(1.5 * inner(log_b, log_b)); // von Mises stress
 
     // Admissibility.
-    if (von_mises_trial <= hardening.yield_stress(history.equivalent_plastic_strain))
-      return hencky.piola_from(tau_trial, trial.axes, strain);
-
-    // Return mapping: the deviator shrinks radially, the volume is left alone.
-    const double multiplier =
-        hardening.return_to_yield(von_mises_trial, history.equivalent_plastic_strain, mu);
-    const double shrink = 1 - 3 * mu * multiplier / von_mises_trial;
-    const Vec3 elastic_stretch_squared = (2 * (shrink * trial.deviator.array() + trial.mean)).exp();
-    const Mat3 b_elastic = trial.axes * elastic_stretch_squared.asDiagonal() * trial.axes.transpose();
-    const Mat3 F_inverse = strain.F.inverse();
-    history.plastic_metric = F_inverse * b_elastic * F_inverse.transpose();
-    history.equivalent_plastic_strain += multiplier;
-    return hencky.piola_from(shrink * tau_trial, trial.axes, strain);
+    if (trial > hardening.yield_stress(history.equivalent_plastic_strain))
+      flow(b, trial, log_b, strain.F, history);
+    return hencky.piola_from(log_b, strain);
   }
 
   /// The same if it did not flow any further.
   Mat3 elastic_piola(const Strain& strain, const History& history) const {
-    const PrincipalLogStrain elastic(strain.F * history.plastic_metric * strain.F.transpose());
-    return hencky.piola_from(2 * hencky.elastic.mu * elastic.deviator, elastic.axes, strain);
+    return hencky.piola_from(elastic_log_deviator(strain, history), strain);
   }
 
   /// Stored elastic energy, J/m^3.
   double energy(const Strain& strain, const History& history) const {
-    const PrincipalLogStrain elastic(strain.F * history.plastic_metric * strain.F.transpose());
-    return hencky.energy_from(elastic.deviator, strain.J);
+    return hencky.energy_from(elastic_log_deviator(strain, history), strain.J);
   }
 
   /// Largest modulus of pressure waves, Pa: StiffeningLaw. That of the volume alone, for the elastic deviator
   /// adds no more than 2/3 of the yield stress.
-  double stiffened_modulus(const Strain& strain) const {
+  double stiffened_modulus(const Strain& strain, const Vec3& squared) const {
     const ElasticConstants& elastic = hencky.elastic;
-    return (elastic.pressure_wave_modulus() - elastic.kappa * std::log(strain.J)) /
-           squared_stretches(strain.F).minCoeff();
+    return (elastic.pressure_wave_modulus() - elastic.kappa * std::log(strain.J)) / squared[0];
   }
 
   ElasticConstants linearised() const { return hencky.linearised(); }
@@ -69,6 +55,25 @@ struct VonMises {
   }
   double plastic_work(const History& history) const {
     return hardening.work(history.equivalent_plastic_strain);
+  }
+
+ private:
+  /// Return mapping from a von Mises stress `trial`, Pa: the deviator of ln b shrinks radially, the volume is
+  /// left alone; C_p^-1 = F^-1 b F^-T.
+  [[gnu::noinline]] void flow(const Deviation& b, double trial, Symmetric& log_b, const Mat3& F,
+                              History& history) const {
+    const double mu = hencky.elastic.mu;
+    const double multiplier = hardening.return_to_yield(trial, history.equivalent_plastic_strain, mu);
+    log_b = (1 - 3 * mu * multiplier / trial) * log_b;
+    const double J = determinant(F);
+    const double volume = b.mean * std::exp(std::log(b.relative_determinant()) / 3); // det(b)^(1/3)
+    history.plastic_metric =
+        volume / (J * J) * transform(cofactor(F).transpose(), exponential(Deviator(log_b)));
+    history.equivalent_plastic_strain += multiplier;
+  }
+
+  static Symmetric elastic_log_deviator(const Strain& strain, const History& history) {
+    return log_deviator(Deviation(transform(strain.F, history.plastic_metric)));
   }
 };
 
