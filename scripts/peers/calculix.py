@@ -33,6 +33,10 @@ class Mesh:
     def nodes(self):
         return ((self.side + 1) ** 2 + 4 * self.side * self.rings) * (self.layers + 1)
 
+    @property
+    def steps(self):
+        return math.ceil(END_TIME / self.step * (1 - 1e-9))
+
 
 def section(mesh):
     """Nodes (x, y) and quadrilaterals of a cross section."""
