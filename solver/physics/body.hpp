@@ -50,6 +50,7 @@ class Body {
   static constexpr bool nets_J = Dissipation::nets_J;
 
   using Field = typename Dissipation::Field; ///< p, and J where it is dissipated
+  using Moments = typename Dissipation::Moments;
   using Reach = typename Dissipation::Reach;
   /// What P does at the ends of an edge: P_a (V w_ab) = [P B | P] . reach, columns in turn.
   using Pull = Lanes<D, 2 * D>;
@@ -99,28 +100,23 @@ class Body {
       if constexpr (dissipates_J)
         sent[a][D] = J[a];
     });
-    using Moments = typename Dissipation::Moments;
     for_each(size(), [&](std::int64_t a) {
-      const Field here = sent[a];
-      Moments by_X = Moments::Zero(), by_lambda = Moments::Zero(); // sums of change (x) reach
       typename Dissipation::First rough;
+      Moments by_X, by_lambda;
       if constexpr (Formulation::evolves_F || Dissipation::fits || Dissipation::gathers)
-        for (std::int64_t e = neighbours.row[a]; e < neighbours.row[a + 1]; ++e) {
-          const std::int32_t b = neighbours.column[e];
-          const Field change = sent[b] - here;
-          const Reach reach = gradient.reach(a, e, b);
-          for (int j = 0; j < D; ++j) {
-            by_X.col(j) += reach(j, 0) * change;
-            if constexpr (Formulation::evolves_F)
-              by_lambda.col(j) += reach(j, 1) * change;
-          }
-          dissipation.add_first(rough, e, change);
-        }
+        gather_momenta(a, by_X, by_lambda, rough);
       dissipation.end_first(rough, by_X, *this, a);
-      Mat<D> G = Mat<D>::Zero();
-      if constexpr (Formulation::evolves_F)
-        G = (by_X.template topRows<D>() * gradient.B[a].transpose() + by_lambda.template topRows<D>()) /
-            (density * V[a]);
+      Mat<D> G;
+      if constexpr (Formulation::evolves_F) {
+        const Mat<D>& B = gradient.B[a];
+        const double scale = 1 / (density * V[a]);
+        for (int j = 0; j < D; ++j) {
+          Field column = by_lambda.col(j);
+          for (int i = 0; i < D; ++i)
+            column += by_X.col(i) * B(j, i);
+          G.col(j) = scale * column.template head<D>();
+        }
+      }
       use(a, G);
     });
   }
@@ -147,7 +143,7 @@ class Body {
         force += pulled(pull[b], reach);
         dissipation.add_second(rough, a, e, b, sent[b] - here, static_cast<double>(gradient.omega[e]), reach);
       }
-      T[a] = (force + pulled(pull[a], total)).template head<D>() / V[a];
+      T[a] = (1 / V[a]) * (force + pulled(pull[a], total)).template head<D>();
       R.p[a] = T[a];
       if constexpr (dissipates) {
         const Field lost = dissipation.end_second(rough, total, *this, a);
@@ -276,6 +272,30 @@ class Body {
   std::vector<double> wave; ///< pressure wave speed at the last commit, (3.93), m/s
 
  private:
+  /// Sums over the edges of a particle of change (x) reach. They stay in registers: nothing else can see them
+  /// before the loop is over.
+  [[gnu::always_inline]] void gather_momenta(std::int64_t a, Moments& X, Moments& lambda,
+                                             typename Dissipation::First& rough) const {
+    const Field here = sent[a];
+    Moments by_X = Moments::Zero(), by_lambda = Moments::Zero();
+    typename Dissipation::First sum;
+    const std::int64_t end = neighbours.row[a + 1];
+    for (std::int64_t e = neighbours.row[a]; e < end; ++e) {
+      const std::int32_t b = neighbours.column[e];
+      const Field change = sent[b] - here;
+      const Reach reach = gradient.reach(a, e, b);
+      for (int j = 0; j < D; ++j) {
+        by_X.col(j) += reach(j, 0) * change;
+        if constexpr (Formulation::evolves_F)
+          by_lambda.col(j) += reach(j, 1) * change;
+      }
+      dissipation.add_first(sum, e, change);
+    }
+    X = by_X;
+    lambda = by_lambda;
+    rough = sum;
+  }
+
   /// Columns in pairs: the sum of each product is formed before it joins the next.
   static Lanes<D> pulled(const Pull& of, const Reach& reach) {
     Lanes<D> sum = of.col(0) * reach(0, 0) + of.col(1) * reach(0, 1);

@@ -47,8 +47,7 @@ double largest_wave_modulus(const L& law, const Strain& strain) {
 /// rho0 c^2, Pa, that the step is taken from: (3.93) as it stands while no wave is faster than that by more
 /// than a quarter, for which a CFL number of 0.3 leaves room; else the law's own.
 template <ConstitutiveLaw L>
-double step_wave_modulus(const L& law, const Strain& strain) {
-  const Vec3 squared = squared_stretches(strain.F);
+double step_wave_modulus(const L& law, const Strain& strain, const Vec3& squared) {
   const double usual = law.linearised().pressure_wave_modulus() / squared[0];
   if constexpr (StiffeningLaw<L>) {
     const double own = law.stiffened_modulus(strain, squared);
@@ -56,6 +55,10 @@ double step_wave_modulus(const L& law, const Strain& strain) {
   } else {
     return usual;
   }
+}
+template <ConstitutiveLaw L>
+double step_wave_modulus(const L& law, const Strain& strain) {
+  return step_wave_modulus(law, strain, squared_stretches(strain.F));
 }
 
 /// A law that also flows: elastic_piola(strain, history), Pa, as if it did not;

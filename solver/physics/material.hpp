@@ -56,11 +56,13 @@ class MaterialOf final : public Material<D> {
 
   void commit(const StrainFields<D>& strains, std::int64_t first, std::span<Mat<D>> P,
               std::span<double> wave_moduli) override {
+    std::vector<Vec3> squared(P.size());
+    squared_stretches<D>(strains.F.subspan(static_cast<std::size_t>(first), P.size()), squared);
     for (std::size_t i = 0; i < P.size(); ++i) {
       const std::int64_t a = first + static_cast<std::int64_t>(i);
       const Strain strain = strains[a];
       P[i] = law_.piola(strain, history(a)).template topLeftCorner<D, D>();
-      wave_moduli[a] = step_wave_modulus(law_, strain);
+      wave_moduli[a] = step_wave_modulus(law_, strain, squared[i]);
     }
   }
 

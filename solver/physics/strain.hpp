@@ -66,11 +66,66 @@ inline double isochoric_factor(double J) {
   return std::exp(-1.0 / 3 * std::log(J * J));
 }
 
-/// Squares of the principal stretches of F, the smallest first.
+/// Squares of the principal stretches of many F, the smallest first, eight at a time: by what
+/// PrincipalValues explains, in numbers of eight particles each.
+template <int D>
+void squared_stretches(std::span<const Mat<D>> many, std::span<Vec3> squared) {
+  constexpr int together = 8;
+  using Numbers = Eigen::Array<double, together, 1>;
+  for (std::size_t first = 0; first < many.size(); first += together) {
+    Numbers F[3][3], X[3][3], Q[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < together; ++k) {
+          const Mat<D>& F_k = many[std::min(first + k, many.size() - 1)];
+          F[i][j][static_cast<int>(k)] = i < D && j < D ? F_k(i % D, j % D) : double(i == j);
+        }
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        X[i][j] = X[j][i] = F[i][0] * F[j][0] + F[i][1] * F[j][1] + F[i][2] * F[j][2];
+    const Numbers mean = (X[0][0] + X[1][1] + X[2][2]) / 3, inverse_mean = 1 / mean;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        X[i][j] = X[j][i] = (i == j ? Numbers(X[i][j] - mean) : X[i][j]) * inverse_mean;
+    const auto inner = [](const Numbers(&A)[3][3], const Numbers(&B)[3][3]) -> Numbers {
+      return A[0][0] * B[0][0] + A[1][1] * B[1][1] + A[2][2] * B[2][2] +
+             2 * (A[1][0] * B[1][0] + A[2][0] * B[2][0] + A[2][1] * B[2][1]);
+    };
+    const Numbers h = 0.5 * inner(X, X), inverse_XX = 0.5 / h.max(1e-60);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        Q[i][j] = X[i][0] * X[0][j] + X[i][1] * X[1][j] + X[i][2] * X[2][j];
+    const Numbers d = inner(X, Q) / 3;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) {
+        Q[i][j] -= 3 * d * inverse_XX * X[i][j]; // T
+        if (i == j)
+          Q[i][j] -= 2.0 / 3 * h;
+      }
+    const Numbers size_X = (2 * h).sqrt(), size_T = inner(Q, Q).sqrt();
+    const Numbers cos3 = std::sqrt(54.0) * d.abs() * inverse_XX / size_X.max(1e-30);
+    const Numbers sin3 = std::sqrt(6.0) * size_T * inverse_XX;
+    Numbers c = std::sqrt(0.75) + (1 - std::sqrt(0.75)) * cos3;
+    for (int i = 0; i < 3; ++i)
+      c -= (c * (4 * c * c - 3) - cos3) / (12 * c * c - 3);
+    const Numbers s = sin3 / (4 * c * c - 1), size = std::sqrt(2.0 / 3) * size_X;
+    // The values of X or, where d is negative, of -X: the largest in size, and two of the other sign.
+    const Numbers most = size * c, middle = size * (std::sqrt(0.75) * s - 0.5 * c),
+                  least = size * (-std::sqrt(0.75) * s - 0.5 * c);
+    const Numbers smallest = (d < 0).select(-most, least), largest = (d < 0).select(-least, most);
+    const Numbers between = (d < 0).select(-middle, middle);
+    for (std::size_t k = 0; k < std::min<std::size_t>(together, many.size() - first); ++k) {
+      const auto i = static_cast<int>(k);
+      squared[first + k] = mean[i] * (1 + Vec3(smallest[i], between[i], largest[i]).array());
+    }
+  }
+}
+
+/// Those of one F.
 inline Vec3 squared_stretches(const Mat3& F) {
-  const Deviation b(left_cauchy_green(F));
-  const Vec3 x = PrincipalValues(b).values();
-  return b.mean * (1 + Vec3(std::min(x[0], x[2]), x[1], std::max(x[0], x[2])).array());
+  Vec3 squared;
+  squared_stretches<3>(std::span(&F, 1), std::span(&squared, 1));
+  return squared;
 }
 
 } // namespace tessera::solver
