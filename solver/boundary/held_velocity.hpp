@@ -127,6 +127,18 @@ class HeldVelocities {
     return reactions;
   }
 
+  /// Memory of what is held, bytes.
+  std::size_t bytes() const {
+    std::size_t bytes = 0;
+    for (const auto* frames : {&still_, &moving_}) {
+      bytes += frames->capacity() * sizeof(Frame);
+      for (const Frame& frame : *frames)
+        for (const auto& parts : frame.parts)
+          bytes += parts.capacity() * sizeof(Part);
+    }
+    return bytes;
+  }
+
  private:
   /// weight . w of velocity number `velocity` is part of what an axis' component must be.
   struct Part {

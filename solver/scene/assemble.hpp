@@ -94,7 +94,7 @@ auto with_assembly(const SceneSpec& scene, const ParticleCloud& cloud, Use&& use
 struct MemoryNeeds {
   double neighbours = 0;         ///< mean
   std::size_t history_bytes = 0; ///< a particle, of the material
-  std::size_t outside_bytes = 0; ///< a particle, of walls, loads and moving boundaries
+  double outside_bytes = 0;      ///< a particle, of walls, loads and held velocities
   bool shocks = false;           ///< the dissipation has a shock term
 };
 
@@ -118,14 +118,17 @@ double bytes_per_particle(const MemoryNeeds& needs) {
                                      + number + vector // of the critical step: stiffness, field
                                      + Dissipation::of_J * 2 * number + Dissipation::particle_bytes;
   return an_edge * needs.neighbours +
-         static_cast<double>(a_particle + needs.history_bytes + needs.outside_bytes +
-                             (needs.shocks ? Dissipation::sensor_bytes : 0));
+         static_cast<double>(a_particle + needs.history_bytes +
+                             (needs.shocks ? Dissipation::sensor_bytes : 0)) +
+         needs.outside_bytes;
 }
 
 template <class Body>
 MemoryNeeds memory_needs(const SceneSpec& scene, const Assembly<Body>& assembly) {
   return {assembly.body.neighbours.mean(), assembly.body.material->history_bytes(),
-          assembly.step->outside_bytes(), scene.jst2 > 0};
+          static_cast<double>(assembly.step->outside_bytes()) +
+              static_cast<double>(assembly.step->held().bytes()) / static_cast<double>(assembly.body.size()),
+          scene.jst2 > 0};
 }
 
 template <class Body>

@@ -92,7 +92,7 @@ SceneSpec elastic() {
   return scene;
 }
 
-/// Within 3 %: what particles with held velocities take, as many as lie on a face, is not counted.
+/// Within 3 %.
 void expect_said(const Memory& memory) {
   EXPECT_NEAR(memory.said / memory.measured, 1, 0.03)
       << memory.said << " said, " << memory.measured << " measured";
