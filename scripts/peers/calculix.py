@@ -1,7 +1,7 @@
 """The Taylor bar for CalculiX (ccx): mesh, input deck, run and result.
 
 Explicit dynamics, finite strains, linear bricks of one integration point (C3D8R). Of the bricks it is the only one to use
-here: C3D8 locks when metal flows (a radius of 5.4 mm), C3D8I has a sixth of its mass in explicit steps (CalculiX' issue 171).
+here: C3D8 locks when metal flows (a radius of 5.4 mm), C3D8I is reported to have a sixth of its mass in explicit steps.
 The time step stays as it begins and knows nothing of elements pressed flat, so it is asked for, as `Mesh.step`; a step
 the mesh does not bear ends with numbers that are none. No masses are scaled: the least step is left at its default, which is
 below the one asked for.
